@@ -20,6 +20,10 @@ extern "C" {
 /* Triangle ids are 32-bit and 0xffffffff means 'none'; simulated memory holds 4 GiB (lrbni/base/arena.h). */
 #define SCENE_MAX_TRIANGLES ((size_t)1 << 25)
 
+/* Largest absolute coordinate of a vertex: the squared length of a float normal, at most 192 times its fourth power,
+   stays finite. Cameras and lights may lie ten times as far out. */
+#define SCENE_MAX_COORDINATE 1e9
+
 typedef struct scene_triangle {
     float v[3][3]; /* vertex, axis */
 } scene_triangle;

@@ -21,7 +21,7 @@ typedef struct bvh_node {
     uint32_t count; /* inner: 0; leaf: number of consecutive triangle records, at least 1 */
 } bvh_node;
 
-/* 64 bytes, one line: three vertices in 4-float groups, so that one load, less the origin repeated four times,
+/* 64 bytes, one line: three vertices and the normal in 4-float groups, so that one load, less the origin three times,
    translates the triangle. A group's fourth float is not geometry. */
 typedef struct bvh_triangle {
     float v0[3];
@@ -30,16 +30,16 @@ typedef struct bvh_triangle {
     uint32_t zero1;
     float v2[3];
     uint32_t zero2;
-    float v0_again[3]; /* the edge back to the start without a special case */
+    float normal[3]; /* (v1-v0) x (v2-v0) in double, divided by its largest magnitude, rounded */
     uint32_t zero3;
 } bvh_triangle;
 
 typedef struct bvh_options {
     unsigned max_leaf;     /* largest number of triangles in a leaf; 1..64; a node within the limit becomes a leaf */
     unsigned bins;         /* bins per axis; 2..64 */
-    float traversal_cost;  /* of a node, in units of ... */
-    float intersect_cost;  /* ... a triangle test */
-    unsigned jobs;         /* host threads; the tree does not depend on it */
+    float traversal_cost;  /* of an inner node, at least 0; the unit is that of ... */
+    float intersect_cost;  /* ... a triangle test, above 0; both enter sah_cost only: no split depends on them */
+    unsigned jobs;         /* host threads, at least 1; the tree does not depend on it */
 } bvh_options;
 
 typedef struct bvh {
@@ -62,15 +62,19 @@ bvh_options bvh_options_default(void);
 /**
  * Build the tree of a scene.
  *
- * A leaf is made as soon as the count is within max_leaf (algorithms 1.4); a larger node that no split can divide
- * (equal centroids) or that stands at BVH_MAX_DEPTH is cut in the middle of its list. Triangles whose normal is zero
- * are left out and counted. Boxes are exact unions of float vertices. Equal input gives equal bytes on every host,
- * with any number of jobs.
+ * A leaf is made as soon as the count is within max_leaf (algorithms 1.4). A larger node is split at the bin boundary
+ * of least cost (of equal ones at the lowest axis, then the lowest bin) of those that leave no more on either side
+ * than the levels up to BVH_MAX_DEPTH can hold; where there is none (equal centroids) its list is cut in the middle.
+ * Triangles whose normal is zero are left out and counted (kernels/accel/box.h). Boxes are exact unions of float
+ * vertices, -0 counting as +0. Pairs lie in depth-first order, left before right, and so do records; within a leaf
+ * ids ascend. Equal input gives equal bytes on every host, with any number of jobs. At work it takes up to 256 bytes
+ * for each triangle, the tree included, and a little more.
  *
  * @param out  owned by the caller: free with bvh_destroy; a scene of degenerate triangles alone gives a tree whose
  *             root is a leaf with an empty box (min +inf, max -inf) and count 0
  *
- * Errors: BASE_ERR_USAGE for options out of range, BASE_ERR_NOMEM.
+ * Errors: BASE_ERR_USAGE naming the option that is out of range, BASE_ERR_INPUT naming a scene of more than
+ * SCENE_MAX_TRIANGLES triangles, BASE_ERR_NOMEM.
  */
 base_status bvh_build(const scene *s, const bvh_options *options, bvh **out, base_error *err);
 

@@ -1,0 +1,58 @@
+/* What a kernel is: a function from a tile number to pixels, counters and events, with a name and parameters.
+ *
+ * A kernel's source is compiled once per level (lrbni/ctx.h); its descriptor in registry.c holds the three functions.
+ * Tiles are independent: any order, any host thread, the same results.
+ */
+#ifndef KERNELS_KERNEL_H
+#define KERNELS_KERNEL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "kernels/counters.h"
+#include "kernels/job.h"
+#include "lrbni/ctx.h"
+
+/* Trace one tile: its pixels go to the job's frame, its counts are added to *n, its ops to the context. */
+typedef void kernel_tile_fn(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n);
+
+typedef struct kernel_info {
+    const char *name;
+    const char *summary;       /* a line for `lanetrace kernels` */
+    const char *paper;         /* section that it follows */
+    kernel_params defaults;
+    uint64_t counters;         /* bit i: counter i is reported */
+    kernel_tile_fn *tile[LRB_LEVELS]; /* by level */
+} kernel_info;
+
+/** All kernels; *count entries. */
+const kernel_info *kernel_list(size_t *count);
+
+/** The kernel of that name, or NULL. */
+const kernel_info *kernel_find(const char *name);
+
+/* Phases of the tracing kernels, the numbers of their phase events. */
+typedef enum kernel_phase {
+    KERNEL_PHASE_SETUP,        /* rays and intervals of a packet or group */
+    KERNEL_PHASE_TRAVERSAL,    /* box tests, stack */
+    KERNEL_PHASE_CULLING,      /* triangles against frusta, back faces */
+    KERNEL_PHASE_INTERSECTION, /* triangles against rays, hit records */
+    KERNEL_PHASE_COUNT
+} kernel_phase;
+
+/** "setup", "traversal" and so on. */
+extern const char *const kernel_phase_names[KERNEL_PHASE_COUNT];
+
+/* Numbers of the source files whose branches appear in events (LRB_SOURCE). */
+enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, KERNEL_SOURCE_CORNER_CULL, KERNEL_SOURCE_PACKET16, KERNEL_SOURCE_MFT };
+
+/* The name of a tile function at the level that is being compiled: mft_primary_count. */
+#if defined(LRB_LEVEL) && LRB_LEVEL == 0
+#define KERNEL_TILE_FN(name) name##_native
+#elif defined(LRB_LEVEL) && LRB_LEVEL == 1
+#define KERNEL_TILE_FN(name) name##_count
+#elif defined(LRB_LEVEL) && LRB_LEVEL == 2
+#define KERNEL_TILE_FN(name) name##_record
+#endif
+
+#endif

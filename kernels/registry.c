@@ -1,0 +1,52 @@
+#include "kernels/kernel.h"
+
+#include <string.h>
+
+const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection"};
+
+/* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count and mft_primary_record */
+#define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record
+KERNEL_TILES(packet16_primary);
+KERNEL_TILES(mft_primary);
+#undef KERNEL_TILES
+
+#define BIT(counter) (UINT64_C(1) << KERNEL_##counter)
+
+static const uint64_t tracing_counters = BIT(rays) | BIT(rays_primary) | BIT(tri_accesses) | BIT(tri_after_culling) |
+                                         BIT(aabb_tests) | BIT(isect_tests) | BIT(traversed_cells) | BIT(traversed_inner) |
+                                         BIT(units_common) | BIT(units_blend) | BIT(units_zero);
+
+const kernel_info *kernel_list(size_t *count)
+{
+    /* Leaf limits: the start values of algorithms 1.4, deep for packets, shallow for frusta. */
+    static const kernel_info kernels[] = {
+        {
+            .name = "packet16-primary",
+            .summary = "primary rays in 4x4 packets through a deep BVH: the MFT paper's reference",
+            .paper = "Benthin and Wald 2009, 5: P-Packet",
+            .defaults = {.cull_backface = 0, .max_leaf = 2, .bins = 16},
+            .counters = tracing_counters | BIT(units_packets),
+            .tile = {packet16_primary_native, packet16_primary_count, packet16_primary_record},
+        },
+        {
+            .name = "mft-primary",
+            .summary = "primary rays in groups of 16 frusta of 4x4 through a shallow BVH: multi-frusta tracing",
+            .paper = "Benthin and Wald 2009, 4 and appendix A: P-Frusta",
+            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16},
+            .counters = tracing_counters | BIT(units_groups) | BIT(units_frusta),
+            .tile = {mft_primary_native, mft_primary_count, mft_primary_record},
+        },
+    };
+    *count = sizeof kernels / sizeof *kernels;
+    return kernels;
+}
+
+const kernel_info *kernel_find(const char *name)
+{
+    size_t count;
+    const kernel_info *kernels = kernel_list(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(kernels[i].name, name) == 0)
+            return &kernels[i];
+    return NULL;
+}

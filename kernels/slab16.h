@@ -1,0 +1,183 @@
+/* The 16-lane slab test: one box against 16 intervals of directions from one origin. Algorithms B.1.3.
+ *
+ * A lane is a ray of a packet or a frustum of a group. What is tested is, per axis, an interval of direction components:
+ * for a frustum the range over its rays; for a ray its own component. Both are widened by `slack` on either side,
+ * so that a ray is treated as a cone of 2^-16 of its length. That makes three things true at no cost per box:
+ *
+ * - a ray with a component of +-0 is an interval around 0 like any other (hard cases X1, X2, B1, B3), and no
+ *   reciprocal is infinite;
+ * - the rounding of (plane - origin) * reciprocal, a few units in the last place, cannot lose a box that the ray
+ *   meets (X13);
+ * - the triangle test, whose edges are exact to a few units in the last place *of the distance*, cannot accept a hit
+ *   that the test of an axis-aligned box around the triangle refuses (X10): every tracer sees the same hits.
+ *
+ * The reciprocal that multiplies the near plane is that of the component of largest magnitude, for the far plane that
+ * of the smallest: numeric min and max would lose hits for one of the two signs.
+ */
+#ifndef KERNELS_SLAB16_H
+#define KERNELS_SLAB16_H
+
+#include "kernels/counters.h"
+#include "kernels/kernel.h"
+#include "kernels/rays16.h"
+#include "kernels/scratch.h"
+
+#undef LRB_SOURCE
+#define LRB_SOURCE KERNEL_SOURCE_SLAB
+
+/* How the lanes' directions lie; chosen once per packet or group. */
+typedef enum slab16_path {
+    SLAB16_COMMON, /* all lanes have the same strict sign on every axis: near and far planes by offset */
+    SLAB16_BLEND,  /* every lane has a strict sign on every axis: near and far planes by lane */
+    SLAB16_ZERO    /* some lane's interval holds 0 on some axis: the tight test of B.1.3 */
+} slab16_path;
+
+typedef struct slab16 {
+    slab16_path path;
+    lrb_v16f limit; /* distance that an entry must not exceed: nearest hit so far */
+    lrb_v16f zero, infinity;
+    lrb_v16f near_rcp[3]; /* COMMON, BLEND: 1 / largest magnitude; ZERO: 1 / largest component, positive */
+    lrb_v16f back_rcp[3]; /* ZERO: 1 / smallest component, negative */
+    lrb_v16f far_rcp[3];  /* 1 / smallest magnitude, where the lane has a sign */
+    lrb_k16 negative[3];  /* BLEND: lanes with negative components */
+    lrb_k16 strict[3];    /* ZERO: lanes whose interval does not hold 0 */
+    lrb_ptr near_plane[3], far_plane[3]; /* COMMON: addresses of the first box's planes in scratch */
+} slab16;
+
+/* Signs of one axis: lanes strictly positive and strictly negative. */
+typedef struct slab16_signs {
+    lrb_k16 positive, negative;
+} slab16_signs;
+
+LRB_INLINE void slab16_setup_zero(lrb_ctx *c, slab16 *s, lrb_ptr constants, const lrb_v16f lo[3], const lrb_v16f hi[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        lrb_v16f forward = lrb_max_ps_s3(c, hi[axis], lrb_1to16_ps(RAYS16_CONSTANT(constants, tiny)));
+        lrb_v16f back = lrb_min_ps_s3(c, lo[axis], lrb_1to16_ps(RAYS16_CONSTANT(constants, minus_tiny)));
+        s->near_rcp[axis] = rays16_reciprocal(c, forward);
+        s->back_rcp[axis] = rays16_reciprocal(c, back);
+    }
+}
+
+/* One sign for all active lanes on every axis? Then the near planes are the same for all. */
+LRB_INLINE bool slab16_setup_common(lrb_ctx *c, slab16 *s, lrb_ptr scratch, lrb_k16 active, const slab16_signs signs[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        lrb_k16 negative = lrb_kand(c, signs[axis].negative, active);
+        lrb_k16 positive = lrb_kand(c, signs[axis].positive, active);
+        bool any_negative = !lrb_jz(c, lrb_kortest(c, negative, negative));
+        if (any_negative && lrb_jnz(c, lrb_kortest(c, positive, positive)))
+            return false;
+        int near_word = any_negative ? axis + 4 : axis;
+        s->near_plane[axis] = lrb_lea(c, scratch, lrb_imm(0), 1, SCRATCH_BOXES + 4 * near_word);
+        s->far_plane[axis] = lrb_lea(c, scratch, lrb_imm(0), 1, SCRATCH_BOXES + 4 * (near_word ^ 4));
+    }
+    return true;
+}
+
+/**
+ * Prepare the test for a packet or group and choose its path.
+ *
+ * @param lo, hi  per axis the smallest and largest direction component of each lane, not yet widened
+ * @param active  lanes that will be tested; the others may hold anything
+ * @param n       the path is counted here
+ */
+LRB_INLINE void slab16_setup(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr scratch, lrb_k16 active, lrb_v16f lo[3],
+                             lrb_v16f hi[3], kernel_counts *n)
+{
+    slab16_signs signs[3];
+    lrb_v16f slack = lrb_load_1to16_ps(c, RAYS16_CONSTANT(constants, slack));
+    lrb_k16 all_strict = active;
+    s->infinity = lrb_load_ps(c, RAYS16_CONSTANT(constants, infinity));
+    s->zero = lrb_castpi_ps(lrb_xor_pi(c, lrb_castps_pi(slack), lrb_castps_pi(slack)));
+    for (int axis = 0; axis < 3; axis++) {
+        s->back_rcp[axis] = s->zero; /* what the chosen path does not use is defined all the same */
+        s->near_plane[axis] = s->far_plane[axis] = scratch;
+        lo[axis] = lrb_sub_ps(c, lo[axis], slack);
+        hi[axis] = lrb_add_ps(c, hi[axis], slack);
+        signs[axis].positive = lrb_cmplt_ps(c, s->zero, lo[axis]);
+        signs[axis].negative = lrb_cmplt_ps(c, hi[axis], s->zero);
+        s->negative[axis] = signs[axis].negative;
+        s->strict[axis] = lrb_kor(c, signs[axis].positive, signs[axis].negative);
+        all_strict = lrb_kand(c, all_strict, s->strict[axis]);
+        lrb_v16f smallest = lrb_mask_mov_ps(c, lo[axis], signs[axis].negative, hi[axis]);
+        s->far_rcp[axis] = rays16_reciprocal(c, smallest);
+    }
+    lrb_k16 some_zero = lrb_kxor(c, all_strict, active);
+    if (lrb_jnz(c, lrb_kortest(c, some_zero, some_zero))) {
+        s->path = SLAB16_ZERO;
+        n->n[KERNEL_units_zero]++;
+        slab16_setup_zero(c, s, constants, lo, hi);
+        return;
+    }
+    for (int axis = 0; axis < 3; axis++)
+        s->near_rcp[axis] = rays16_reciprocal(c, lrb_mask_mov_ps(c, hi[axis], signs[axis].negative, lo[axis]));
+    s->path = slab16_setup_common(c, s, scratch, active, signs) ? SLAB16_COMMON : SLAB16_BLEND;
+    n->n[s->path == SLAB16_COMMON ? KERNEL_units_common : KERNEL_units_blend]++;
+}
+
+/* Entry and exit distances of one axis. `box` is the box in scratch, relative to the origin; `second` 32 for its neighbour. */
+LRB_INLINE lrb_v16f slab16_entry(lrb_ctx *c, const slab16 *s, slab16_path path, lrb_ptr scratch, int axis, int second)
+{
+    lrb_mem min = lrb_at(scratch, SCRATCH_BOXES + second + 4 * axis);
+    lrb_mem max = lrb_at(scratch, SCRATCH_BOXES + second + 4 * (axis + 4));
+    lrb_v16f entry;
+    switch (path) {
+    case SLAB16_COMMON:
+        return lrb_mul_ps_s3(c, s->near_rcp[axis], lrb_1to16_ps(lrb_at(s->near_plane[axis], second)));
+    case SLAB16_BLEND:
+        entry = lrb_mul_ps_s3(c, s->near_rcp[axis], lrb_1to16_ps(min));
+        return lrb_mask_mul_ps_s3(c, entry, s->negative[axis], s->near_rcp[axis], lrb_1to16_ps(max));
+    case SLAB16_ZERO:
+        /* Whatever the lane's sign: the box is reached going forward at min / largest, going back at max / smallest;
+           the product of the wrong direction is negative, or huge where that direction cannot reach the box. */
+        entry = lrb_mul_ps_s3(c, s->near_rcp[axis], lrb_1to16_ps(min));
+        return lrb_max_ps(c, entry, lrb_mul_ps_s3(c, s->back_rcp[axis], lrb_1to16_ps(max)));
+    }
+    return s->zero;
+}
+
+LRB_INLINE lrb_v16f slab16_exit(lrb_ctx *c, const slab16 *s, slab16_path path, lrb_ptr scratch, int axis, int second)
+{
+    lrb_mem min = lrb_at(scratch, SCRATCH_BOXES + second + 4 * axis);
+    lrb_mem max = lrb_at(scratch, SCRATCH_BOXES + second + 4 * (axis + 4));
+    lrb_v16f by_min, by_max;
+    switch (path) {
+    case SLAB16_COMMON:
+        return lrb_mul_ps_s3(c, s->far_rcp[axis], lrb_1to16_ps(lrb_at(s->far_plane[axis], second)));
+    case SLAB16_BLEND:
+        by_max = lrb_mul_ps_s3(c, s->far_rcp[axis], lrb_1to16_ps(max));
+        return lrb_mask_mul_ps_s3(c, by_max, s->negative[axis], s->far_rcp[axis], lrb_1to16_ps(min));
+    case SLAB16_ZERO:
+        by_min = lrb_mul_ps_s3(c, s->far_rcp[axis], lrb_1to16_ps(min));
+        by_max = lrb_mul_ps_s3(c, s->far_rcp[axis], lrb_1to16_ps(max));
+        return lrb_mask_max_ps(c, lrb_mov_ps(c, s->infinity), s->strict[axis], by_min, by_max);
+    }
+    return s->infinity;
+}
+
+/**
+ * Test one box of the pair in scratch.
+ *
+ * @param path    a constant, equal to s->path, so that each path is code of its own
+ * @param second  0 or 32: which box of the pair
+ * @param m       lanes to test
+ * @param entry   out: entry distances, at least 0
+ *
+ * Returns the lanes of m that meet the box. 13 ops on the common path, as Benthin and Wald's appendix A.
+ */
+LRB_INLINE lrb_k16 slab16_test(lrb_ctx *c, const slab16 *s, slab16_path path, lrb_ptr scratch, int second, lrb_k16 m, lrb_v16f *entry)
+{
+    lrb_v16f e = slab16_entry(c, s, path, scratch, 0, second);
+    lrb_v16f x = slab16_exit(c, s, path, scratch, 0, second);
+    e = lrb_max_ps(c, e, slab16_entry(c, s, path, scratch, 1, second));
+    x = lrb_min_ps(c, x, slab16_exit(c, s, path, scratch, 1, second));
+    e = lrb_max_ps(c, e, slab16_entry(c, s, path, scratch, 2, second));
+    x = lrb_min_ps(c, x, slab16_exit(c, s, path, scratch, 2, second));
+    e = lrb_max_ps(c, e, s->zero);
+    x = lrb_min_ps(c, x, s->limit);
+    *entry = e;
+    return lrb_mask_cmple_ps(c, m, e, x);
+}
+
+#endif

@@ -1,0 +1,144 @@
+/* Traversal of the BVH by 16 lanes with one origin: packets of rays and groups of frusta alike. Algorithms A.1, B.1.5.
+ *
+ * The stack holds nodes and masks, no distances, as in Benthin and Wald's appendix A: distances are checked again at
+ * the children. The nearer child is first: the one that any lane in both enters first.
+ */
+#ifndef KERNELS_TRAVERSAL16_H
+#define KERNELS_TRAVERSAL16_H
+
+#include "kernels/slab16.h"
+
+#undef LRB_SOURCE
+#define LRB_SOURCE KERNEL_SOURCE_TRAVERSAL
+
+/* Intersect the triangles of one leaf: records [first, end), lanes m; shortens s->limit. */
+typedef void traversal16_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr first, lrb_ptr end, lrb_k16 m);
+
+typedef struct traversal16 {
+    lrb_ptr nodes, records, scratch;
+    lrb_v16f origin; /* x y z 0, four times */
+    uint32_t root_link, root_count;
+    bool empty; /* a tree without triangles: nothing is launched */
+    traversal16_leaf *leaf; /* a constant, so that it is inlined */
+    void *user;
+    kernel_counts *n;
+} traversal16;
+
+/** What traverses a job's tree; the origin is the caller's to load. */
+LRB_INLINE traversal16 traversal16_of(const kernel_job *job, lrb_ptr scratch, traversal16_leaf *leaf, void *user, kernel_counts *n)
+{
+    return (traversal16){
+        .nodes = lrb_segment_at(job->nodes, 0),
+        .records = lrb_segment_at(job->records, 0),
+        .scratch = scratch,
+        .root_link = job->root_link,
+        .root_count = job->root_count,
+        .empty = job->record_count == 0,
+        .leaf = leaf,
+        .user = user,
+        .n = n,
+    };
+}
+
+/* A node as the traversal holds it: its link and count, and the lanes that are in it. */
+typedef struct traversal16_node {
+    lrb_r64 link, count;
+    lrb_k16 m;
+} traversal16_node;
+
+LRB_INLINE traversal16_node traversal16_read(lrb_ctx *c, lrb_ptr node, lrb_k16 m)
+{
+    return (traversal16_node){
+        .link = lrb_load32(c, lrb_at(node, (int32_t)offsetof(bvh_node, link))),
+        .count = lrb_load32(c, lrb_at(node, (int32_t)offsetof(bvh_node, count))),
+        .m = m,
+    };
+}
+
+LRB_INLINE lrb_ptr traversal16_push(lrb_ctx *c, lrb_ptr top, lrb_r64 node_offset, lrb_k16 m)
+{
+    lrb_store32(c, lrb_at(top, 0), node_offset);
+    lrb_store32(c, lrb_at(top, 4), lrb_kmov_rk(c, m));
+    return lrb_lea(c, top, lrb_imm(0), 1, SCRATCH_STACK_ENTRY);
+}
+
+/* From an inner node to its nearer child, pushing the other; false if no lane meets either. */
+LRB_INLINE bool traversal16_descend(lrb_ctx *c, const traversal16 *t, const slab16 *s, slab16_path path, traversal16_node *node,
+                                    lrb_ptr *top)
+{
+    lrb_v16f entry0, entry1;
+    lrb_ptr pair = lrb_lea(c, t->nodes, node->link, 1, 0);
+    t->n->n[KERNEL_traversed_inner]++;
+    t->n->n[KERNEL_aabb_tests] += 2;
+    lrb_store_ps(c, lrb_at(t->scratch, SCRATCH_BOXES), lrb_subr_ps_s3(c, t->origin, lrb_full_ps(lrb_at(pair, 0))));
+    lrb_k16 m0 = slab16_test(c, s, path, t->scratch, 0, node->m, &entry0);
+    lrb_k16 m1 = slab16_test(c, s, path, t->scratch, 32, node->m, &entry1);
+    lrb_ptr second = lrb_lea(c, pair, lrb_imm(0), 1, 32);
+    if (lrb_jz(c, lrb_kortest(c, m0, m0))) {
+        *node = traversal16_read(c, second, m1);
+        return !lrb_jz(c, lrb_kortest(c, m1, m1));
+    }
+    if (lrb_jz(c, lrb_kortest(c, m1, m1))) {
+        *node = traversal16_read(c, pair, m0);
+        return true;
+    }
+    lrb_k16 nearer = lrb_mask_cmplt_ps(c, lrb_kand(c, m0, m1), entry0, entry1);
+    if (lrb_jnz(c, lrb_kortest(c, nearer, nearer))) {
+        *top = traversal16_push(c, *top, lrb_add(c, node->link, lrb_imm(32)), m1);
+        *node = traversal16_read(c, pair, m0);
+    } else {
+        *top = traversal16_push(c, *top, node->link, m0);
+        *node = traversal16_read(c, second, m1);
+    }
+    return true;
+}
+
+/** Visit every leaf that a lane of `active` meets nearer than its limit. `path` is a constant equal to s->path. */
+LRB_INLINE void traversal16_run(lrb_ctx *c, const traversal16 *t, slab16 *s, slab16_path path, lrb_k16 active)
+{
+    lrb_ptr bottom = lrb_lea(c, t->scratch, lrb_imm(0), 1, SCRATCH_STACK);
+    lrb_ptr top = bottom;
+    traversal16_node node = {.link = lrb_imm(t->root_link), .count = lrb_imm(t->root_count), .m = active};
+    bool reached = true;
+    for (;;) {
+        while (reached && !lrb_jnz(c, lrb_test(c, node.count, node.count)))
+            reached = traversal16_descend(c, t, s, path, &node, &top);
+        if (reached) {
+            t->n->n[KERNEL_traversed_cells]++; /* leaves; the inner nodes are added by the caller */
+            lrb_ptr first = lrb_lea(c, t->records, node.link, 1, 0);
+            lrb_ptr end = lrb_lea(c, first, lrb_shl(c, node.count, 6), 1, 0);
+            t->leaf(c, s, t->user, first, end, node.m);
+            lrb_phase(c, KERNEL_PHASE_TRAVERSAL);
+        }
+        if (lrb_jz(c, lrb_cmp_ptr(c, top, bottom)))
+            break;
+        top = lrb_lea(c, top, lrb_imm(0), 1, -SCRATCH_STACK_ENTRY);
+        lrb_r64 offset = lrb_load32(c, lrb_at(top, 0));
+        lrb_k16 m = lrb_kmov_kr(c, lrb_load32(c, lrb_at(top, 4)));
+        node = traversal16_read(c, lrb_lea(c, t->nodes, offset, 1, 0), m);
+        reached = true;
+    }
+}
+
+/** The same with the path that slab16_setup chose: three loops, each with its own box test. */
+LRB_INLINE void traversal16_run_path(lrb_ctx *c, const traversal16 *t, slab16 *s, lrb_k16 active)
+{
+    uint64_t inner_before = t->n->n[KERNEL_traversed_inner];
+    if (t->empty)
+        return;
+    lrb_phase(c, KERNEL_PHASE_TRAVERSAL);
+    switch (s->path) {
+    case SLAB16_COMMON:
+        traversal16_run(c, t, s, SLAB16_COMMON, active);
+        break;
+    case SLAB16_BLEND:
+        traversal16_run(c, t, s, SLAB16_BLEND, active);
+        break;
+    case SLAB16_ZERO:
+        traversal16_run(c, t, s, SLAB16_ZERO, active);
+        break;
+    }
+    t->n->n[KERNEL_traversed_cells] += t->n->n[KERNEL_traversed_inner] - inner_before;
+}
+
+#endif

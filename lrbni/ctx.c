@@ -1,0 +1,58 @@
+#include "lrbni/ctx.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+base_status lrb_ctx_create(lrb_event_sink *sink, void *user, lrb_ctx **out, base_error *err)
+{
+    lrb_ctx *c = calloc(1, sizeof *c);
+    if (c) {
+        c->sink = sink;
+        c->sink_user = user;
+        c->events = aligned_alloc(64, LRB_BATCH * sizeof *c->events);
+        c->scratch.host = aligned_alloc(64, LRB_SCRATCH_BYTES);
+        c->scratch.address = LRB_SCRATCH_ADDRESS;
+        c->scratch.size = LRB_SCRATCH_BYTES;
+    }
+    if (!c || !c->events || !c->scratch.host) {
+        lrb_ctx_destroy(&c);
+        return base_fail(err, BASE_ERR_NOMEM, "kernel context", "out of memory");
+    }
+    memset(c->scratch.host, 0, LRB_SCRATCH_BYTES);
+    lrb_ctx_begin(c);
+    *out = c;
+    return BASE_OK;
+}
+
+void lrb_ctx_destroy(lrb_ctx **c)
+{
+    if (*c) {
+        free((*c)->events);
+        free((*c)->scratch.host);
+        free(*c);
+    }
+    *c = NULL;
+}
+
+void lrb_ctx_begin(lrb_ctx *c)
+{
+    c->next_event = LRB_FAR;
+    c->markers = 0;
+}
+
+static void hand_over(lrb_ctx *c, uint32_t count)
+{
+    if (c->sink && count)
+        c->sink(c->sink_user, c->events, count);
+}
+
+void lrb_ctx_flush(lrb_ctx *c)
+{
+    hand_over(c, LRB_BATCH);
+}
+
+void lrb_ctx_end(lrb_ctx *c)
+{
+    hand_over(c, (c->next_event + c->markers) % LRB_BATCH);
+    lrb_ctx_begin(c);
+}

@@ -1,0 +1,57 @@
+/* The context of a kernel's ops: one stream of accounting, one block of scratch memory. */
+#ifndef LRBNI_CTX_H
+#define LRBNI_CTX_H
+
+#include <stdint.h>
+
+#include "lrbni/base/status.h"
+#include "lrbni/event.h"
+#include "lrbni/memory.h"
+#include "lrbni/op_table.h"
+
+/* How much a kernel's ops account for; chosen when the kernel is compiled (LRB_LEVEL), the same source for all. */
+#define LRB_NATIVE 0 /* nothing: the host runs the lanes alone */
+#define LRB_COUNT 1  /* a histogram of ops, and the idle lanes */
+#define LRB_RECORD 2 /* events with dependences */
+#define LRB_LEVELS 3
+
+#define LRB_BATCH 1024u /* events handed to the sink at a time */
+
+typedef struct lrb_ctx {
+    /* LRB_COUNT */
+    uint64_t ops[LRB_OP_COUNT];
+    uint64_t idle_lanes; /* lanes switched off by masks, summed over vector ops */
+
+    /* LRB_RECORD */
+    uint32_t next_event; /* id of the next op's event; ids of a tile start at LRB_FAR */
+    uint32_t markers;    /* in the tile so far: they take a place in the batch, but no id */
+    lrb_event_sink *sink;
+    void *sink_user;
+    lrb_event *events; /* LRB_BATCH of them, owned */
+
+    lrb_segment scratch; /* LRB_SCRATCH_BYTES, owned: what the kernel keeps in memory of its own */
+} lrb_ctx;
+
+/**
+ * A context; free it with lrb_ctx_destroy.
+ *
+ * @param sink  receives the events of kernels at LRB_RECORD; NULL drops them
+ * @param user  passed to the sink
+ *
+ * Errors: BASE_ERR_NOMEM.
+ */
+base_status lrb_ctx_create(lrb_event_sink *sink, void *user, lrb_ctx **out, base_error *err);
+
+/** Free a context; sets the pointer to NULL. NULL contents are fine. */
+void lrb_ctx_destroy(lrb_ctx **c);
+
+/** Begin a tile: event ids start again. */
+void lrb_ctx_begin(lrb_ctx *c);
+
+/** End a tile: hand the events that are still here to the sink. */
+void lrb_ctx_end(lrb_ctx *c);
+
+/** Hand the batch to the sink; called by the ops when it is full. */
+void lrb_ctx_flush(lrb_ctx *c);
+
+#endif

@@ -1,0 +1,185 @@
+/* Sixteen lanes in plain C: the reference that the other back ends match bit for bit. */
+#ifndef LRBNI_HOST_PORTABLE_LANES_H
+#define LRBNI_HOST_PORTABLE_LANES_H
+
+#include <stdint.h>
+#include <string.h>
+
+#include "lrbni/numeric.h"
+
+#define LRB_BACKEND "portable"
+
+typedef struct lrb_f32x16 {
+    float f[16];
+} lrb_f32x16;
+
+typedef struct lrb_i32x16 {
+    int32_t i[16];
+} lrb_i32x16;
+
+/* LANES_F2(add, lrb_f32_add(a.f[i], b.f[i])): r.f[i] = lrb_f32_add(a.f[i], b.f[i]) for every lane */
+#define LANES_F2(name, expression)                                             \
+    static inline lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b)     \
+    {                                                                          \
+        lrb_f32x16 r;                                                          \
+        for (int i = 0; i < 16; i++)                                           \
+            r.f[i] = expression;                                               \
+        return r;                                                              \
+    }
+LANES_F2(add, lrb_f32_add(a.f[i], b.f[i]))
+LANES_F2(sub, lrb_f32_sub(a.f[i], b.f[i]))
+LANES_F2(mul, lrb_f32_mul(a.f[i], b.f[i]))
+LANES_F2(min, lrb_f32_min(a.f[i], b.f[i]))
+LANES_F2(max, lrb_f32_max(a.f[i], b.f[i]))
+#undef LANES_F2
+
+/* LANES_F3(fmadd): r.f[i] = lrb_f32_fmadd(a.f[i], b.f[i], c.f[i]) */
+#define LANES_F3(name)                                                                       \
+    static inline lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b, lrb_f32x16 c)     \
+    {                                                                                        \
+        lrb_f32x16 r;                                                                        \
+        for (int i = 0; i < 16; i++)                                                         \
+            r.f[i] = lrb_f32_##name(a.f[i], b.f[i], c.f[i]);                                 \
+        return r;                                                                            \
+    }
+LANES_F3(fmadd)
+LANES_F3(fmsub)
+LANES_F3(fnmadd)
+#undef LANES_F3
+
+static inline lrb_f32x16 lanes_rcpres_ps(lrb_f32x16 a)
+{
+    lrb_f32x16 r;
+    for (int i = 0; i < 16; i++)
+        r.f[i] = lrb_f32_rcpres(a.f[i]);
+    return r;
+}
+
+/* LANES_I2(add, +): r.i[i] = a.i[i] + b.i[i] mod 2^32 */
+#define LANES_I2(name, operator)                                                        \
+    static inline lrb_i32x16 lanes_##name##_pi(lrb_i32x16 a, lrb_i32x16 b)              \
+    {                                                                                   \
+        lrb_i32x16 r;                                                                   \
+        for (int i = 0; i < 16; i++)                                                    \
+            r.i[i] = (int32_t)((uint32_t)a.i[i] operator (uint32_t) b.i[i]);            \
+        return r;                                                                       \
+    }
+LANES_I2(add, +)
+LANES_I2(sub, -)
+LANES_I2(and, &)
+LANES_I2(or, |)
+LANES_I2(xor, ^)
+#undef LANES_I2
+
+/* LANES_CMP(cmplt_ps, f32, a.f[i] < b.f[i]): bit i of the result */
+#define LANES_CMP(name, type, condition)                                       \
+    static inline uint32_t lanes_##name(lrb_##type##x16 a, lrb_##type##x16 b)  \
+    {                                                                          \
+        uint32_t k = 0;                                                        \
+        for (int i = 0; i < 16; i++)                                           \
+            k |= (uint32_t)(condition) << i;                                   \
+        return k;                                                              \
+    }
+LANES_CMP(cmpeq_ps, f32, a.f[i] == b.f[i])
+LANES_CMP(cmplt_ps, f32, a.f[i] < b.f[i])
+LANES_CMP(cmple_ps, f32, a.f[i] <= b.f[i])
+LANES_CMP(cmpunord_ps, f32, a.f[i] != a.f[i] || b.f[i] != b.f[i])
+LANES_CMP(cmpneq_ps, f32, !(a.f[i] == b.f[i]))
+LANES_CMP(cmpnlt_ps, f32, !(a.f[i] < b.f[i]))
+LANES_CMP(cmpnle_ps, f32, !(a.f[i] <= b.f[i]))
+LANES_CMP(cmpord_ps, f32, a.f[i] == a.f[i] && b.f[i] == b.f[i])
+LANES_CMP(cmpeq_pi, i32, a.i[i] == b.i[i])
+LANES_CMP(cmplt_pi, i32, a.i[i] < b.i[i])
+LANES_CMP(cmple_pi, i32, a.i[i] <= b.i[i])
+#undef LANES_CMP
+
+/* The merge rule: lane i of `new` where bit i of k is 1, of `old` elsewhere. */
+static inline lrb_i32x16 lanes_merge_pi(uint32_t k, lrb_i32x16 old, lrb_i32x16 new_lanes)
+{
+    lrb_i32x16 r;
+    for (int i = 0; i < 16; i++)
+        r.i[i] = k >> i & 1 ? new_lanes.i[i] : old.i[i];
+    return r;
+}
+
+static inline lrb_i32x16 lanes_bits_ps(lrb_f32x16 a)
+{
+    lrb_i32x16 r;
+    memcpy(&r, &a, sizeof r);
+    return r;
+}
+
+static inline lrb_f32x16 lanes_bits_pi(lrb_i32x16 a)
+{
+    lrb_f32x16 r;
+    memcpy(&r, &a, sizeof r);
+    return r;
+}
+
+static inline lrb_f32x16 lanes_merge_ps(uint32_t k, lrb_f32x16 old, lrb_f32x16 new_lanes)
+{
+    return lanes_bits_pi(lanes_merge_pi(k, lanes_bits_ps(old), lanes_bits_ps(new_lanes)));
+}
+
+/* Lane 4g+j of the result is lane 4g + word j of the source; `words` holds two bits per j, lowest first. */
+static inline lrb_f32x16 lanes_swizzle_ps(lrb_f32x16 a, unsigned words)
+{
+    lrb_f32x16 r;
+    for (int i = 0; i < 16; i++)
+        r.f[i] = a.f[(i & 12) | (words >> (2 * (i & 3)) & 3)];
+    return r;
+}
+
+static inline lrb_f32x16 lanes_shuf128x32_ps(lrb_f32x16 a, unsigned blocks, unsigned words)
+{
+    lrb_f32x16 r;
+    for (int i = 0; i < 16; i++)
+        r.f[i] = a.f[4 * (blocks >> (2 * (i >> 2)) & 3) + (words >> (2 * (i & 3)) & 3)];
+    return r;
+}
+
+static inline lrb_i32x16 lanes_load_pi(const void *m)
+{
+    lrb_i32x16 r;
+    memcpy(&r, m, sizeof r);
+    return r;
+}
+
+static inline lrb_i32x16 lanes_load_1to16_pi(const void *m)
+{
+    lrb_i32x16 r;
+    for (int i = 0; i < 16; i++)
+        memcpy(&r.i[i], m, 4);
+    return r;
+}
+
+static inline lrb_i32x16 lanes_load_4to16_pi(const void *m)
+{
+    lrb_i32x16 r;
+    for (int i = 0; i < 16; i += 4)
+        memcpy(&r.i[i], m, 16);
+    return r;
+}
+
+/* Reads the selected lanes only; the others come from `old`. */
+static inline lrb_i32x16 lanes_mask_load_pi(lrb_i32x16 old, uint32_t k, const void *m)
+{
+    for (int i = 0; i < 16; i++)
+        if (k >> i & 1)
+            memcpy(&old.i[i], (const char *)m + 4 * i, 4);
+    return old;
+}
+
+static inline void lanes_store_pi(void *m, lrb_i32x16 a) { memcpy(m, &a, sizeof a); }
+
+/* Writes the selected lanes only. */
+static inline void lanes_mask_store_pi(void *m, uint32_t k, lrb_i32x16 a)
+{
+    for (int i = 0; i < 16; i++)
+        if (k >> i & 1)
+            memcpy((char *)m + 4 * i, &a.i[i], 4);
+}
+
+#include "lrbni/host/float_memory.h"
+
+#endif

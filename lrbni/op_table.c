@@ -1,0 +1,68 @@
+#include "lrbni/op_table.h"
+
+#include <string.h>
+
+#include "lrbni/base/hash.h"
+
+const lrb_op_info lrb_op_table[LRB_OP_COUNT] = {
+/* {"add_ps", "vaddps", LRB_SHAPE_V_VV, LRB_CLASS_vector_alu, LRB_MASK_MERGE, LRB_ROUND_RNE, "L1OM ...", "d[i] = ..."}, */
+#define OP(id, mnemonic, shape, class, mask, round, source, formula) \
+    {#id, mnemonic, LRB_SHAPE_##shape, LRB_CLASS_##class, LRB_MASK_##mask, LRB_ROUND_##round, source, formula},
+#include "lrbni/ops.def"
+};
+
+const char *const lrb_shape_names[LRB_SHAPE_COUNT] = {
+    "V_V",  "V_VV", "V_VVV", "VI_V", "VI_VV", "V_VII", "V_M",  "VI_M", "M_V",  "M_VI", "K_VV", "KI_VV", "K_KK", "K_K",
+    "F_KK", "K_R",  "R_K",   "R_R",  "R_RR",  "R_RI",  "P_PR", "R_M",  "M_R",  "F_RR", "B_F",  "B",     "MARK",
+};
+
+lrb_op_kind lrb_op_kind_of(lrb_op_id id)
+{
+    switch (lrb_op_table[id].class_id) {
+    case LRB_CLASS_marker:
+        return LRB_KIND_MARKER;
+    case LRB_CLASS_vector_alu:
+    case LRB_CLASS_vector_compare:
+    case LRB_CLASS_vector_permute:
+    case LRB_CLASS_vector_convert:
+    case LRB_CLASS_vector_lookup:
+    case LRB_CLASS_vector_load:
+    case LRB_CLASS_vector_store:
+        return LRB_KIND_VECTOR;
+    case LRB_CLASS_mask_alu:
+    case LRB_CLASS_mask_move:
+    case LRB_CLASS_mask_test:
+        return LRB_KIND_MASK;
+    case LRB_CLASS_branch:
+        return LRB_KIND_BRANCH;
+    default:
+        return LRB_KIND_SCALAR;
+    }
+}
+
+int lrb_op_is_memory(lrb_op_id id)
+{
+    switch (lrb_op_table[id].shape) {
+    case LRB_SHAPE_V_M:
+    case LRB_SHAPE_VI_M:
+    case LRB_SHAPE_M_V:
+    case LRB_SHAPE_M_VI:
+    case LRB_SHAPE_R_M:
+    case LRB_SHAPE_M_R:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+uint64_t lrb_op_table_hash(void)
+{
+    uint64_t hash = BASE_HASH_START;
+    for (int i = 0; i < LRB_OP_COUNT; i++) {
+        const lrb_op_info *op = &lrb_op_table[i];
+        hash = base_hash(hash, op->id, strlen(op->id) + 1);
+        hash = base_hash(hash, op->mnemonic, strlen(op->mnemonic) + 1);
+        hash = base_hash(hash, op->formula, strlen(op->formula) + 1);
+    }
+    return hash;
+}

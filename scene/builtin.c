@@ -1,0 +1,27 @@
+#include "scene/builtin.h"
+
+#include <string.h>
+
+#include "scene/builtin/scenes.h"
+
+static const scene_builtin builtins[] = {
+    {"rooms-804", "three small furnished rooms joined by doorways", "Erw6", SCENE_ROOMS_TRIANGLES, scene_build_rooms},
+    {"hall-60k", "a two-storey saloon with bar, gallery, stairs and a plank floor", "Saloon", SCENE_HALL_TRIANGLES,
+        scene_build_hall},
+    {"atrium-76k", "a courtyard with two storeys of vaulted arcades, cloths, ropes and a fountain", "Sponza",
+        SCENE_ATRIUM_TRIANGLES, scene_build_atrium},
+};
+
+const scene_builtin *scene_builtin_list(size_t *count)
+{
+    *count = sizeof builtins / sizeof *builtins;
+    return builtins;
+}
+
+const scene_builtin *scene_builtin_find(const char *name)
+{
+    for (size_t i = 0; i < sizeof builtins / sizeof *builtins; i++)
+        if (strcmp(builtins[i].name, name) == 0)
+            return &builtins[i];
+    return NULL;
+}

@@ -1,0 +1,79 @@
+/* The issue model: U and V pipes, operand latencies, one thread, every access an L1 hit, branches predicted.
+ *
+ * What it models, tile by tile, from an empty pipeline:
+ * - in order; at most two ops a cycle: an op that may issue in V joins the op before it, which issued in U, if its
+ *   operands are ready, it does not depend on that op, and its class is not busy; nothing joins an op that blocks;
+ * - operands: an op waits for each source until the producer's latency for that kind of consumer has passed (ordinary,
+ *   swizzled or stored, jump, address; sim/machine_fields.def);
+ * - loads wait for the youngest store to the same 32-bit words, in a table of 64 recent lines;
+ * - classes with a throughput of a cycle or more issue no closer than that; blocking ops stop the thread;
+ * - consecutive issue cycles are at least issue_gap apart.
+ * What it leaves out: caches, other threads, mispredictions, instruction fetch, bank conflicts: those are the core model.
+ *
+ * Every cycle of a tile is in exactly one bucket: the buckets sum to the total.
+ */
+#ifndef SIM_ISSUE_H
+#define SIM_ISSUE_H
+
+#include <stdint.h>
+
+#include "lrbni/base/status.h"
+#include "lrbni/event.h"
+#include "lrbni/op_table.h"
+#include "sim/machine.h"
+
+/* How a consumer reads an operand: which of the producer's latencies applies. */
+typedef enum sim_consumer { SIM_CONSUMER_PLAIN, SIM_CONSUMER_SHUFFLE, SIM_CONSUMER_BRANCH, SIM_CONSUMER_ADDRESS, SIM_CONSUMERS } sim_consumer;
+
+#define SIM_MAX_PHASES 16
+#define SIM_MAX_REGIONS 16 /* of a tile */
+
+/* Where the cycles went; plain sums, so that stats of tiles add up. */
+typedef struct sim_issue_stats {
+    uint64_t cycles;
+    uint64_t issued_one, issued_pair; /* cycles in which one op, or two, issued */
+    uint64_t gap;                     /* cycles that the thread must let pass between issues */
+    uint64_t blocked;                 /* behind an op that blocks the thread */
+    uint64_t busy[LRB_CLASS_COUNT];   /* the op's class was still busy */
+    uint64_t operand[LRB_CLASS_COUNT][SIM_CONSUMERS]; /* waiting for a result of that class, by the waiting operand */
+    uint64_t store_forward;           /* a load waiting for a store to the same words */
+    uint64_t issued_by_class[LRB_CLASS_COUNT]; /* issue cycles, by the class of the first op: sums to issued_one + issued_pair */
+    uint64_t phase[SIM_MAX_PHASES];   /* cycles by phase of the op that ended them */
+    uint64_t ops[LRB_OP_COUNT];       /* ops issued; markers too, which take no cycle */
+    uint64_t idle_lanes;              /* lanes switched off by masks, summed over vector ops */
+} sim_issue_stats;
+
+typedef struct sim_issue sim_issue;
+
+/**
+ * A simulator for one stream at a time.
+ *
+ * @param machine  read while the simulator lives; owned by the caller
+ *
+ * Errors: BASE_ERR_NOMEM.
+ */
+base_status sim_issue_create(const sim_machine *machine, sim_issue **out, base_error *err);
+
+/** Free a simulator; sets the pointer to NULL. */
+void sim_issue_destroy(sim_issue **s);
+
+/** Begin a tile: an empty pipeline, phase 0, region 'whole tile'. */
+void sim_issue_begin(sim_issue *s);
+
+/** Time the next events of the tile. Has the signature of lrb_event_sink; `s` is the sim_issue. */
+void sim_issue_events(void *s, const lrb_event *events, uint32_t count);
+
+/**
+ * End the tile: its cycles, from the first issue to the last, are added to the stats.
+ *
+ * @param regions  out, SIM_MAX_REGIONS + 1 entries: cycles spent for each region of the tile, last those for all of it
+ */
+void sim_issue_end(sim_issue *s, uint64_t regions[SIM_MAX_REGIONS + 1]);
+
+/** The sums over all tiles that have ended. */
+const sim_issue_stats *sim_issue_get(const sim_issue *s);
+
+/** Add `from` to `to`. */
+void sim_issue_stats_add(sim_issue_stats *to, const sim_issue_stats *from);
+
+#endif
