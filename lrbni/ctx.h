@@ -20,7 +20,8 @@
 typedef struct lrb_ctx {
     /* LRB_COUNT */
     uint64_t ops[LRB_OP_COUNT];
-    uint64_t idle_lanes; /* lanes switched off by masks, summed over vector ops */
+    uint64_t memory_operands; /* ops whose last source was in memory; loads and stores apart */
+    uint64_t idle_lanes;      /* lanes switched off by masks, summed over vector ops */
 
     /* LRB_RECORD */
     uint32_t next_event; /* id of the next op's event; ids of a tile start at LRB_FAR */

@@ -209,9 +209,12 @@ static inline void remember_store(sim_issue *s, const op_price *p, const lrb_eve
 {
     store_line *line = &s->stores[e->aux / 64 % STORE_LINES];
     uint32_t words = words_of(p, e);
-    if (line->line == e->aux / 64 && line->ready >= blame(now + 1, 0))
-        words |= line->words; /* stores to one line that follow each other closely count as one */
-    *line = (store_line){e->aux / 64, words, blame(now + s->machine->cost[p->class_id].latency, BUCKET_STORE)};
+    blamed_time ready = blame(now + s->machine->cost[p->class_id].latency, BUCKET_STORE);
+    if (line->line == e->aux / 64 && line->ready >= blame(now + 1, 0)) {
+        words |= line->words; /* stores to one line that follow each other closely count as one, ready with the last of them */
+        ready = latest(ready, line->ready);
+    }
+    *line = (store_line){e->aux / 64, words, ready};
 }
 
 /* When source i is ready. Distance 0 and distances beyond the window: long ago. */
@@ -259,6 +262,7 @@ static inline void issue_op(sim_issue *s, pipeline *pipe, uint32_t gap, const op
     }
     if (p->is_store)
         remember_store(s, p, e, now);
+    s->stats.memory_operands += (e->op & LRB_FORM_MEMORY) != 0;
     if (p->is_vector && e->mask != 0xffff)
         s->stats.idle_lanes += 16u - (unsigned)__builtin_popcount(e->mask);
 }

@@ -40,6 +40,7 @@ typedef struct sim_issue_stats {
     uint64_t issued_by_class[LRB_CLASS_COUNT]; /* issue cycles, by the class of the first op: sums to issued_one + issued_pair */
     uint64_t phase[SIM_MAX_PHASES];   /* cycles by phase of the op that ended them */
     uint64_t ops[LRB_OP_COUNT];       /* ops issued; markers too, which take no cycle */
+    uint64_t memory_operands;         /* ops whose last source was in memory; loads and stores apart */
     uint64_t idle_lanes;              /* lanes switched off by masks, summed over vector ops */
 } sim_issue_stats;
 

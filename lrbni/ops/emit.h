@@ -44,6 +44,7 @@ LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t ma
 #else
 #if LRB_LEVEL == LRB_COUNT
     c->ops[op]++;
+    c->memory_operands += form & LRB_FORM_MEMORY ? 1 : 0;
 #else
     (void)c, (void)op;
 #endif

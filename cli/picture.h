@@ -1,0 +1,30 @@
+/* Pictures of a run: shaded, per-pixel results, heat maps. Made on the host from the frame, charged to no machine. */
+#ifndef CLI_PICTURE_H
+#define CLI_PICTURE_H
+
+#include "cli/run.h"
+#include "reports/image.h"
+
+/**
+ * The scene as the run's rays hit it: base colours, Lambert's law for a point light at the light's centre, no shadows,
+ * and a little light from the camera so that nothing is black; what is missed is a pale grey.
+ *
+ * Errors: BASE_ERR_NOMEM.
+ */
+base_status picture_shaded(const run_result *result, report_image *out, base_error *err);
+
+/** Write Z, prim, U, V (CONTRACT 'Pictures and per-pixel results') as an EXR file. */
+base_status picture_write_aov(const run_result *result, const char *path, base_error *err);
+
+/**
+ * A heat map of simulated cycles per pixel, or of a counter per pixel.
+ *
+ * @param counter  KERNEL_COUNTER_COUNT for cycles
+ * @param top      value of the last colour; 0: chosen (reports/heat_map.h)
+ */
+base_status picture_heat_map(const run_result *result, kernel_counter counter, double top, report_image *out, base_error *err);
+
+/** The value that picture_heat_map would choose for `top`. */
+base_status picture_heat_top(const run_result *result, kernel_counter counter, double *top, base_error *err);
+
+#endif

@@ -1,0 +1,286 @@
+/* lanetrace regress: counts, ops and cycles against stored baselines, exactly. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "cli/run.h"
+#include "cli/stats.h"
+#include "lrbni/base/parallel.h"
+#include "reports/output_file.h"
+#include "scene/builtin.h"
+
+enum { KEY_UPDATE = 256, KEY_BASELINES, KEY_JOBS, PATH_BYTES = 4096, SIZE = 256, FIELD_BYTES = 160 };
+
+static const char suite_name[] = "mft-primary";
+
+static const struct argp_option option_table[] = {
+    {"update", KEY_UPDATE, NULL, 0, "store what is measured as the new baseline", 0},
+    {"baselines", KEY_BASELINES, "DIR", 0, "where the baselines lie; default: those of this source tree or installation", 0},
+    {"jobs", KEY_JOBS, "N", 0, "host threads; default: all", 0},
+    {0},
+};
+
+typedef struct arguments {
+    base_error *err;
+    const char *baselines, *jobs;
+    bool update;
+    command_list suites;
+} arguments;
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    arguments *a = state->input;
+    switch (key) {
+    case KEY_UPDATE: a->update = true; return 0;
+    case KEY_BASELINES: a->baselines = text; return 0;
+    case KEY_JOBS: a->jobs = text; return 0;
+    case ARGP_KEY_ARG: return command_list_add(&a->suites, text, a->err) == BASE_OK ? 0 : ENOMEM;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp argp = {
+    option_table, parse, "[SUITE...]",
+    "Measure the suites (all, if none is named) and compare every count, op and cycle with the stored baseline.\v"
+    "Exit code 1 if anything differs. Suites: mft-primary: both kernels on the built-in scenes at 256x256, on both machines.",
+    NULL, NULL, NULL,
+};
+
+/* One measurement of the suite. */
+static base_status measure(json_t *runs, const scene *s, const kernel_info *kernel, const char *machine_name, run_model model,
+                           unsigned jobs, base_error *err)
+{
+    const command_list no_sets = {0};
+    sim_machine *machine = NULL;
+    run_result result = {0};
+    run_options options = {.kernel = kernel, .params = kernel->defaults, .width = SIZE, .height = SIZE, .model = model, .jobs = jobs, .progress = true};
+    base_status status = command_machine(machine_name, &no_sets, &machine, err);
+    if (status == BASE_OK)
+        status = run_kernel(s, machine, &options, &result, err);
+    if (status == BASE_OK && json_array_append_new(runs, stats_json(&result, 0, 0)) != 0)
+        status = base_fail(err, BASE_ERR_NOMEM, "regress", "out of memory");
+    run_result_destroy(&result);
+    sim_machine_destroy(&machine);
+    return status;
+}
+
+static base_status measure_scene(json_t *runs, const scene *s, unsigned jobs, base_error *err)
+{
+    size_t kernels;
+    const kernel_info *kernel = kernel_list(&kernels);
+    base_status status = BASE_OK;
+    for (size_t k = 0; status == BASE_OK && k < kernels; k++) {
+        status = measure(runs, s, &kernel[k], "larrabee", RUN_COUNT, jobs, err);
+        if (status == BASE_OK)
+            status = measure(runs, s, &kernel[k], "larrabee", RUN_ISSUE, jobs, err);
+        if (status == BASE_OK)
+            status = measure(runs, s, &kernel[k], "knc", RUN_ISSUE, jobs, err);
+    }
+    return status;
+}
+
+static base_status measure_suite(json_t *runs, unsigned jobs, base_error *err)
+{
+    size_t count;
+    const scene_builtin *builtin = scene_builtin_list(&count);
+    base_status status = BASE_OK;
+    for (size_t i = 0; status == BASE_OK && i < count; i++) {
+        char name[64];
+        scene *s = NULL;
+        snprintf(name, sizeof name, "builtin:%s", builtin[i].name);
+        status = scene_open(name, &s, err);
+        if (status == BASE_OK)
+            status = measure_scene(runs, s, jobs, err);
+        scene_destroy(&s);
+    }
+    return status;
+}
+
+/* What names a run: kernel, scene, model, machine. */
+static void run_name(const json_t *run, char *name, size_t size)
+{
+    snprintf(name, size, "%s %s %s %s", json_string_value(json_object_get(run, "kernel")),
+             json_string_value(json_object_get(json_object_get(run, "scene"), "name")), json_string_value(json_object_get(run, "model")),
+             json_string_value(json_object_get(json_object_get(run, "machine"), "name")));
+}
+
+typedef struct comparison {
+    report_table *differences;
+    size_t values; /* compared */
+} comparison;
+
+static void add_difference(comparison *c, const char *run, const char *field, const json_t *stored, const json_t *measured)
+{
+    char *old = stored ? json_dumps(stored, JSON_ENCODE_ANY) : NULL, *new_text = measured ? json_dumps(measured, JSON_ENCODE_ANY) : NULL;
+    report_table_begin_row(c->differences);
+    report_table_add_text(c->differences, run);
+    report_table_add_text(c->differences, field);
+    report_table_add_text(c->differences, old ? old : "absent");
+    report_table_add_text(c->differences, new_text ? new_text : "absent");
+    if (json_is_number(stored) && json_is_number(measured) && json_number_value(stored) != 0)
+        report_table_add_real(c->differences, 100 * (json_number_value(measured) / json_number_value(stored) - 1));
+    else
+        report_table_add_missing(c->differences);
+    free(old);
+    free(new_text);
+}
+
+/* Compare two JSON values field by field; either may be absent. Objects nest a few levels deep in what stats_json makes;
+   a stored file that is deeper or otherwise shaped differs at its top. */
+static void compare(comparison *c, const char *run, const char *field, const json_t *stored, const json_t *measured)
+{
+    const char *key;
+    json_t *value;
+    if (!json_is_object(stored) || !json_is_object(measured)) {
+        c->values++;
+        if (!stored || !measured || !json_equal(stored, measured))
+            add_difference(c, run, field, stored, measured);
+        return;
+    }
+    json_object_foreach((json_t *)(uintptr_t)measured, key, value)
+    {
+        char inner[FIELD_BYTES];
+        snprintf(inner, sizeof inner, "%s%s%s", field, *field ? "." : "", key);
+        compare(c, run, inner, json_object_get(stored, key), value);
+    }
+    json_object_foreach((json_t *)(uintptr_t)stored, key, value)
+    {
+        char inner[FIELD_BYTES];
+        snprintf(inner, sizeof inner, "%s%s%s", field, *field ? "." : "", key);
+        if (!json_object_get(measured, key))
+            compare(c, run, inner, value, NULL);
+    }
+}
+
+static json_t *run_of_name(const json_t *runs, const char *name)
+{
+    size_t i;
+    json_t *run;
+    json_array_foreach((json_t *)(uintptr_t)runs, i, run)
+    {
+        char other[FIELD_BYTES];
+        run_name(run, other, sizeof other);
+        if (strcmp(name, other) == 0)
+            return run;
+    }
+    return NULL;
+}
+
+static comparison compare_runs(const json_t *stored, const json_t *measured)
+{
+    size_t i;
+    json_t *run;
+    comparison c = {.differences = report_table_create("Differences from the stored baseline")};
+    report_table_add_column(c.differences, &(report_column){.name = "run"});
+    report_table_add_column(c.differences, &(report_column){.name = "field"});
+    report_table_add_column(c.differences, &(report_column){.name = "stored", .align = REPORT_ALIGN_RIGHT});
+    report_table_add_column(c.differences, &(report_column){.name = "measured", .align = REPORT_ALIGN_RIGHT});
+    report_table_add_column(c.differences, &(report_column){.name = "change", .unit = "%", .kind = REPORT_REAL, .decimals = 3});
+    json_array_foreach((json_t *)(uintptr_t)measured, i, run)
+    {
+        char name[FIELD_BYTES];
+        run_name(run, name, sizeof name);
+        compare(&c, name, "", run_of_name(stored, name), run);
+    }
+    json_array_foreach((json_t *)(uintptr_t)stored, i, run)
+    {
+        char name[FIELD_BYTES];
+        run_name(run, name, sizeof name);
+        if (!run_of_name(measured, name))
+            compare(&c, name, "run", run, NULL);
+    }
+    return c;
+}
+
+static base_status store(const char *path, json_t *runs, base_error *err)
+{
+    report_output out;
+    base_status status = report_output_begin(path, false, &out, err);
+    if (status != BASE_OK)
+        return status;
+    json_t *baseline = json_pack("{s:s, s:s, s:O}", "schema", "lanetrace-baseline-1", "suite", suite_name, "runs", runs);
+    status = report_json_write(baseline, out.stream, err);
+    json_decref(baseline);
+    if (status != BASE_OK) {
+        report_output_abort(&out);
+        return status;
+    }
+    return report_output_commit(&out, err);
+}
+
+/* Read a baseline; *runs is a new reference. */
+static base_status load(const char *path, json_t **runs, base_error *err)
+{
+    json_error_t fault;
+    if (access(path, R_OK) != 0)
+        return base_fail(err, BASE_ERR_INPUT, path, "there is no baseline here; lanetrace regress --update makes it");
+    json_t *baseline = json_load_file(path, JSON_REJECT_DUPLICATES, &fault);
+    if (!baseline)
+        return base_fail(err, BASE_ERR_INPUT, path, "line %d: %s", fault.line, fault.text);
+    json_t *found = json_object_get(baseline, "runs");
+    const char *schema = json_string_value(json_object_get(baseline, "schema"));
+    if (!json_is_array(found) || !schema || strcmp(schema, "lanetrace-baseline-1") != 0) {
+        json_decref(baseline);
+        return base_fail(err, BASE_ERR_INPUT, path, "no baseline of schema lanetrace-baseline-1");
+    }
+    *runs = json_incref(found);
+    json_decref(baseline);
+    return BASE_OK;
+}
+
+/* Compare and print; *differ is set if anything does. */
+static base_status check(const char *path, const json_t *measured, bool *differ, base_error *err)
+{
+    json_t *stored = NULL;
+    base_status status = load(path, &stored, err);
+    if (status != BASE_OK)
+        return status;
+    comparison c = compare_runs(stored, measured);
+    size_t count = report_table_rows(c.differences);
+    if (count)
+        status = report_table_write_text(c.differences, stdout, err);
+    printf("%s: %zu values in %zu runs compared, %zu differ\n", suite_name, c.values, json_array_size(measured), count);
+    *differ = count > 0;
+    report_table_destroy(&c.differences);
+    json_decref(stored);
+    return status;
+}
+
+static base_status regress(const arguments *a, bool *differ, base_error *err)
+{
+    char path[PATH_BYTES];
+    unsigned long jobs = base_parallel_jobs();
+    for (size_t i = 0; i < a->suites.count; i++)
+        if (strcmp(a->suites.items[i], suite_name) != 0)
+            return base_fail(err, BASE_ERR_USAGE, a->suites.items[i], "no such suite (there is %s)", suite_name);
+    if (a->jobs && command_number("--jobs", a->jobs, 1, 1024, &jobs, err) != BASE_OK)
+        return err->status;
+    const char *installed = access(LANETRACE_SOURCE_BASELINES, R_OK) == 0 ? LANETRACE_SOURCE_BASELINES : LANETRACE_INSTALLED_BASELINES;
+    snprintf(path, sizeof path, "%.3900s/%s.json", a->baselines ? a->baselines : installed, suite_name);
+    json_t *runs = json_array();
+    base_status status = measure_suite(runs, (unsigned)jobs, err);
+    if (status == BASE_OK && a->update) {
+        status = store(path, runs, err);
+        if (status == BASE_OK)
+            printf("%s: %zu runs stored in %s\n", suite_name, json_array_size(runs), path);
+    } else if (status == BASE_OK) {
+        status = check(path, runs, differ, err);
+    }
+    json_decref(runs);
+    return status;
+}
+
+int command_regress(int argc, char **argv)
+{
+    base_error err = {0};
+    arguments a = {.err = &err};
+    bool differ = false;
+    base_status status = command_parse(&argp, argc, argv, &a, &err);
+    if (status == BASE_OK)
+        status = regress(&a, &differ, &err);
+    command_list_free(&a.suites);
+    return status != BASE_OK ? command_fail(&err) : differ ? 1 : 0;
+}

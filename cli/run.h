@@ -1,0 +1,78 @@
+/* One kernel over one scene on one model: what run-kernel, report and regress all do. */
+#ifndef CLI_RUN_H
+#define CLI_RUN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "kernels/kernel.h"
+#include "scene/scene.h"
+#include "sim/issue.h"
+#include "sim/machine.h"
+
+/* How much of the machine is modelled; each a stated simplification of the next (docs/machine-model.md). */
+typedef enum run_model { RUN_NATIVE, RUN_COUNT, RUN_ISSUE, RUN_MODELS } run_model;
+
+/** "native", "count", "issue". */
+extern const char *const run_model_names[RUN_MODELS];
+
+/** The model of that name. Errors: BASE_ERR_USAGE, with the names there are. */
+base_status run_model_find(const char *name, run_model *out, base_error *err);
+
+typedef struct run_options {
+    const kernel_info *kernel;
+    kernel_params params;
+    const char *camera; /* NULL: the first */
+    unsigned width, height;
+    run_model model;
+    unsigned jobs;
+    bool keep_tile_counts; /* fill tile_counts of the result */
+    bool progress;         /* a bar on stderr */
+} run_options;
+
+/* Everything that a run has found. Owns all but the scene and the machine. */
+typedef struct run_result {
+    run_options options;
+    const scene *scene;
+    const sim_machine *machine;
+    const scene_camera *camera;
+    bvh *tree;
+    kernel_job *job; /* with the frame: nearest hits by pixel */
+    kernel_counts counts;
+    uint64_t ops[LRB_OP_COUNT]; /* RUN_COUNT and RUN_ISSUE */
+    uint64_t memory_operands, idle_lanes;
+    sim_issue_stats issue; /* RUN_ISSUE */
+    uint64_t cycles;       /* RUN_COUNT and RUN_ISSUE */
+    double *region_cycles; /* RUN_COUNT, RUN_ISSUE: by tile, SIM_MAX_REGIONS + 1 each: blocks, then the whole tile */
+    kernel_counts *tile_counts; /* by tile, or NULL */
+    double build_seconds, kernel_seconds;
+} run_result;
+
+/**
+ * Build the tree, lay out the job, trace all tiles on options->jobs host threads.
+ *
+ * @param s, machine  owned by the caller; must outlive the result
+ * @param out         destroy with run_result_destroy, also after a failure
+ *
+ * Errors: those of bvh_build, kernel_job_create, scene_find_camera; BASE_ERR_NOMEM.
+ */
+base_status run_kernel(const scene *s, const sim_machine *machine, const run_options *options, run_result *out, base_error *err);
+
+/** Free what a result owns. */
+void run_result_destroy(run_result *result);
+
+/** Simulated cycles of image pixel (x, y): its share of its block's and its tile's. RUN_COUNT and RUN_ISSUE. */
+double run_pixel_cycles(const run_result *result, unsigned x, unsigned y);
+
+/** A counter's value for pixel (x, y): its tile's, divided by the pixels of the tile. Needs keep_tile_counts. */
+double run_pixel_count(const run_result *result, kernel_counter counter, unsigned x, unsigned y);
+
+/** Totals over the ops of a run. */
+typedef struct run_op_totals {
+    uint64_t total, vector, scalar, memory;
+    double lane_utilisation; /* active lanes of vector ops / 16 per vector op */
+} run_op_totals;
+
+run_op_totals run_totals(const run_result *result);
+
+#endif

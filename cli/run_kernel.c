@@ -1,0 +1,264 @@
+/* lanetrace run-kernel: one kernel, one scene. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/clock.h"
+#include "cli/command.h"
+#include "cli/picture.h"
+#include "cli/run.h"
+#include "cli/stats.h"
+#include "lrbni/base/parallel.h"
+#include "reports/image_writer.h"
+#include "reports/output_file.h"
+
+enum {
+    KEY_SCENE = 256, KEY_CAMERA, KEY_SIZE, KEY_SAMPLES, KEY_LIGHT_SCALE, KEY_MODEL, KEY_MACHINE, KEY_SET, KEY_PARAM,
+    KEY_ERROR, KEY_JOBS, KEY_STATS, KEY_IMAGE, KEY_AOV, KEY_HEATMAP, KEY_HEATMAP_OF, KEY_TRACE
+};
+
+static const struct argp_option option_table[] = {
+    {"scene", KEY_SCENE, "SCENE", 0, "builtin:NAME (see lanetrace scenes), or a .glb or .gltf file; required", 1},
+    {"camera", KEY_CAMERA, "N", 0, "index or name of the camera in the file; default: the first, or one framing the bounds", 1},
+    {"size", KEY_SIZE, "WxH", 0, "image size in pixels; default 1024x1024", 1},
+    {"light-scale", KEY_LIGHT_SCALE, "F", 0, "scale the light's edges about its centre; default 1", 1},
+    {"samples", KEY_SAMPLES, "N", 0, "shadow rays per pixel of soft-shadow kernels (none in this version); default 16", 1},
+    {"model", KEY_MODEL, "M", 0, "native, count or issue: how much of the machine is modelled; default issue (core is not in this version)", 2},
+    {"machine", KEY_MACHINE, "M", 0, "a machine (see lanetrace machines), or a description's path; default larrabee", 2},
+    {"set", KEY_SET, "KEY=VALUE", 0, "override a field of the machine; repeatable", 2},
+    {"param", KEY_PARAM, "KEY=VALUE", 0, "override a parameter of the kernel; repeatable", 2},
+    {"error", KEY_ERROR, "E", 0, "sampled simulation: 0, all tiles, is all there is in this version", 2},
+    {"jobs", KEY_JOBS, "N", 0, "host threads; results do not depend on it; default: all", 2},
+    {"stats", KEY_STATS, "FILE", 0, "JSON statistics, - for stdout; default: a table on stdout", 3},
+    {"image", KEY_IMAGE, "FILE", 0, "the rendered picture, in any format that OpenImageIO writes", 3},
+    {"aov", KEY_AOV, "FILE.exr", 0, "per-pixel results: Z, prim, U, V", 3},
+    {"heatmap", KEY_HEATMAP, "FILE", 0, "simulated cycles per pixel, as a picture", 3},
+    {"heatmap-of", KEY_HEATMAP_OF, "COUNTER", 0, "make --heatmap of a counter instead, as aabb_tests", 3},
+    {"trace", KEY_TRACE, "FILE.ltr", 0, "record the event stream (not in this version)", 3},
+    {0},
+};
+
+typedef struct arguments {
+    base_error *err;
+    const char *kernel, *scene, *camera, *size, *model, *machine, *jobs, *stats, *image, *aov, *heatmap, *heatmap_of;
+    const char *light_scale, *samples, *error;
+    command_list sets, params;
+} arguments;
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    arguments *a = state->input;
+    switch (key) {
+    case KEY_SCENE: a->scene = text; return 0;
+    case KEY_CAMERA: a->camera = text; return 0;
+    case KEY_SIZE: a->size = text; return 0;
+    case KEY_SAMPLES: a->samples = text; return 0;
+    case KEY_LIGHT_SCALE: a->light_scale = text; return 0;
+    case KEY_MODEL: a->model = text; return 0;
+    case KEY_MACHINE: a->machine = text; return 0;
+    case KEY_ERROR: a->error = text; return 0;
+    case KEY_JOBS: a->jobs = text; return 0;
+    case KEY_STATS: a->stats = text; return 0;
+    case KEY_IMAGE: a->image = text; return 0;
+    case KEY_AOV: a->aov = text; return 0;
+    case KEY_HEATMAP: a->heatmap = text; return 0;
+    case KEY_HEATMAP_OF: a->heatmap_of = text; return 0;
+    case KEY_SET: return command_list_add(&a->sets, text, a->err) == BASE_OK ? 0 : ENOMEM;
+    case KEY_PARAM: return command_list_add(&a->params, text, a->err) == BASE_OK ? 0 : ENOMEM;
+    case KEY_TRACE:
+        base_fail(a->err, BASE_ERR_UNSUPPORTED, "--trace", "recording traces is not in this version");
+        return EINVAL;
+    case ARGP_KEY_ARG:
+        if (a->kernel) {
+            base_fail(a->err, BASE_ERR_USAGE, text, "one kernel at a time: '%s' was given already", a->kernel);
+            return EINVAL;
+        }
+        a->kernel = text;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp argp = {
+    option_table, parse, "KERNEL",
+    "Run one kernel (see lanetrace kernels) over one scene: operation counts, simulated cycles, pictures.\v"
+    "Counts, ops and cycles are equal on every host, compiler, back end and number of jobs.",
+    NULL, NULL, NULL,
+};
+
+/* What the arguments say, checked. */
+typedef struct plan {
+    run_options run;
+    sim_machine *machine;
+    scene *scene;
+    double light_scale, load_seconds;
+    kernel_counter heat_counter; /* KERNEL_COUNTER_COUNT: cycles */
+} plan;
+
+static base_status find_counter(const kernel_info *kernel, const char *name, kernel_counter *out, base_error *err)
+{
+    for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
+        if (strcmp(kernel_counter_table[i].name, name) == 0 && kernel->counters >> i & 1) {
+            *out = (kernel_counter)i;
+            return BASE_OK;
+        }
+    return base_fail(err, BASE_ERR_USAGE, "--heatmap-of", "kernel %s has no counter '%s'", kernel->name, name);
+}
+
+static base_status plan_numbers(const arguments *a, plan *p, base_error *err)
+{
+    unsigned long number;
+    double error;
+    base_status status = BASE_OK;
+    p->light_scale = 1;
+    p->run.width = p->run.height = 1024;
+    p->run.jobs = base_parallel_jobs();
+    if (a->size)
+        status = command_size(a->size, &p->run.width, &p->run.height, err);
+    if (status == BASE_OK && a->samples)
+        status = command_number("--samples", a->samples, 1, 1 << 16, &number, err);
+    if (status == BASE_OK && a->light_scale)
+        status = command_real("--light-scale", a->light_scale, 0, 1e6, &p->light_scale, err);
+    if (status == BASE_OK && a->error) {
+        status = command_real("--error", a->error, 0, 1, &error, err);
+        if (status == BASE_OK && error > 0)
+            status = base_fail(err, BASE_ERR_UNSUPPORTED, "--error", "sampled simulation is not in this version");
+    }
+    if (status == BASE_OK && a->jobs) {
+        status = command_number("--jobs", a->jobs, 1, 1024, &number, err);
+        p->run.jobs = (unsigned)number;
+    }
+    return status;
+}
+
+static base_status plan_heat_map(const arguments *a, plan *p, base_error *err)
+{
+    p->heat_counter = KERNEL_COUNTER_COUNT;
+    if (a->heatmap_of && !a->heatmap)
+        return base_fail(err, BASE_ERR_USAGE, "--heatmap-of", "needs --heatmap FILE");
+    if (a->heatmap && !a->heatmap_of && p->run.model == RUN_NATIVE)
+        return base_fail(err, BASE_ERR_USAGE, "--heatmap", "model native simulates no cycles (take count or issue, or --heatmap-of COUNTER)");
+    p->run.keep_tile_counts = a->heatmap_of != NULL;
+    return a->heatmap_of ? find_counter(p->run.kernel, a->heatmap_of, &p->heat_counter, err) : BASE_OK;
+}
+
+/* A file that cannot be written is found before the work, not after it. */
+static base_status check_outputs(const arguments *a, base_error *err)
+{
+    const char *paths[] = {a->stats, a->image, a->aov, a->heatmap};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        report_output out;
+        if (!paths[i] || (i == 0 && strcmp(paths[i], "-") == 0))
+            continue;
+        base_status status = report_output_begin(paths[i], false, &out, err);
+        if (status != BASE_OK)
+            return status;
+        report_output_abort(&out);
+    }
+    return BASE_OK;
+}
+
+static base_status make_plan(const arguments *a, plan *p, base_error *err)
+{
+    base_status status;
+    if (!a->kernel)
+        return base_fail(err, BASE_ERR_USAGE, "KERNEL", "which kernel? (see lanetrace kernels)");
+    if (!a->scene)
+        return base_fail(err, BASE_ERR_USAGE, "--scene", "which scene? builtin:NAME or a .glb or .gltf file");
+    status = command_kernel(a->kernel, &p->run.kernel, err);
+    if (status != BASE_OK)
+        return status;
+    p->run.params = p->run.kernel->defaults;
+    for (size_t i = 0; status == BASE_OK && i < a->params.count; i++)
+        status = kernel_params_set(&p->run.params, a->params.items[i], err);
+    if (status == BASE_OK)
+        status = plan_numbers(a, p, err);
+    p->run.model = RUN_ISSUE;
+    if (status == BASE_OK && a->model)
+        status = run_model_find(a->model, &p->run.model, err);
+    if (status == BASE_OK)
+        status = plan_heat_map(a, p, err);
+    if (status == BASE_OK)
+        status = command_machine(a->machine ? a->machine : "larrabee", &a->sets, &p->machine, err);
+    if (status == BASE_OK)
+        status = check_outputs(a, err);
+    p->run.camera = a->camera;
+    p->run.progress = true;
+    return status;
+}
+
+static base_status write_stats(const arguments *a, const plan *p, const run_result *result, base_error *err)
+{
+    report_output out;
+    base_status status = report_output_begin(a->stats ? a->stats : "-", true, &out, err);
+    if (status != BASE_OK)
+        return status;
+    if (a->stats) {
+        json_t *stats = stats_json(result, p->load_seconds, 1);
+        status = report_json_write(stats, out.stream, err);
+        json_decref(stats);
+    } else {
+        report_table *table = stats_table(result, p->load_seconds);
+        status = report_table_write_text(table, out.stream, err);
+        report_table_destroy(&table);
+    }
+    if (status != BASE_OK) {
+        report_output_abort(&out);
+        return status;
+    }
+    return report_output_commit(&out, err);
+}
+
+static base_status write_picture(const char *path, report_image *image, base_status made, base_error *err)
+{
+    base_status status = made == BASE_OK ? report_image_write(path, image, err) : made;
+    report_image_destroy(image);
+    return status;
+}
+
+static base_status write_results(const arguments *a, const plan *p, const run_result *result, base_error *err)
+{
+    report_image image = {0};
+    base_status status = BASE_OK;
+    if (a->image)
+        status = write_picture(a->image, &image, picture_shaded(result, &image, err), err);
+    if (status == BASE_OK && a->heatmap)
+        status = write_picture(a->heatmap, &image, picture_heat_map(result, p->heat_counter, 0, &image, err), err);
+    if (status == BASE_OK && a->aov)
+        status = picture_write_aov(result, a->aov, err);
+    return status == BASE_OK ? write_stats(a, p, result, err) : status;
+}
+
+static base_status run_plan(const arguments *a, plan *p, base_error *err)
+{
+    run_result result = {0};
+    double start = clock_seconds();
+    base_status status = scene_open(a->scene, &p->scene, err);
+    p->load_seconds = clock_seconds() - start;
+    if (status != BASE_OK)
+        return status;
+    if (p->light_scale != 1)
+        scene_light_scale(&p->scene->light, p->light_scale);
+    status = run_kernel(p->scene, p->machine, &p->run, &result, err);
+    if (status == BASE_OK)
+        status = write_results(a, p, &result, err);
+    run_result_destroy(&result);
+    return status;
+}
+
+int command_run_kernel(int argc, char **argv)
+{
+    base_error err = {0};
+    arguments a = {.err = &err};
+    plan p = {0};
+    base_status status = command_parse(&argp, argc, argv, &a, &err);
+    if (status == BASE_OK)
+        status = make_plan(&a, &p, &err);
+    if (status == BASE_OK)
+        status = run_plan(&a, &p, &err);
+    scene_destroy(&p.scene);
+    sim_machine_destroy(&p.machine);
+    command_list_free(&a.sets);
+    command_list_free(&a.params);
+    return status == BASE_OK ? 0 : command_fail(&err);
+}

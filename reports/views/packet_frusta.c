@@ -1,0 +1,115 @@
+#include "reports/views/packet_frusta.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "reports/paper.h"
+
+static const char *const paper_scenes[] = {"T-Rex (69K tri)", "Fern (212K tri)", "Call of Juarez Saloon (60K tri)",
+                                           "Fairy Forest (174K tri)"};
+enum { PAPER_SCENES = sizeof paper_scenes / sizeof *paper_scenes };
+static const double paper_rays = 1024.0 * 1024.0;
+
+/* Metrics of mft_table1.csv in the order of the columns. */
+static const char *const paper_metrics[] = {"tris_accessed", "tris_after_culling", "aabb_tests", "isec_tests_16wide", "cycles"};
+enum { METRICS = sizeof paper_metrics / sizeof *paper_metrics };
+
+static void add_number_column(report_table *t, const char *name, int decimals)
+{
+    report_table_add_column(t, &(report_column){.name = name, .kind = REPORT_REAL, .decimals = decimals});
+}
+
+static void add_side(report_table *t, const char *scene, const char *algorithm, const packet_frusta_side *s)
+{
+    const uint64_t numbers[] = {s->rays, s->tri_accesses, s->tri_after_culling, s->aabb_tests, s->isect_tests, s->count_cycles, s->issue_cycles};
+    report_table_begin_row(t);
+    report_table_add_text(t, scene);
+    report_table_add_text(t, algorithm);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        report_table_add_real(t, (double)numbers[i]);
+    report_table_add_real(t, (double)s->issue_cycles / (double)s->rays);
+}
+
+static void add_paper_side(report_table *t, const char *scene, const char *algorithm)
+{
+    double cycles = report_paper_find("mft_table1", scene, algorithm, "cycles");
+    report_table_begin_row(t);
+    report_table_add_text(t, scene);
+    report_table_add_text(t, algorithm);
+    report_table_add_real(t, paper_rays);
+    for (int i = 0; i + 1 < METRICS; i++)
+        report_table_add_real(t, report_paper_find("mft_table1", scene, algorithm, paper_metrics[i]));
+    report_table_add_missing(t);
+    report_table_add_real(t, cycles);
+    report_table_add_real(t, cycles / paper_rays);
+}
+
+report_table *packet_frusta_counts(const packet_frusta_row *rows, size_t count, const char *caption)
+{
+    static const char *const names[] = {"rays", "triangle accesses", "after culling", "AABB tests", "intersection tests",
+                                        "cycles, count model", "cycles, issue model"};
+    report_table *t = report_table_create("Primary rays: packets against multi-frusta tracing");
+    report_table_set_caption(t, caption);
+    report_table_add_column(t, &(report_column){.name = "scene"});
+    report_table_add_column(t, &(report_column){.name = "algorithm"});
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        add_number_column(t, names[i], 0);
+    add_number_column(t, "cycles per ray", 1);
+    report_table_begin_group(t, "measured");
+    for (size_t i = 0; i < count; i++) {
+        add_side(t, rows[i].scene, "P-Packet", &rows[i].packet);
+        add_side(t, rows[i].scene, "P-Frusta", &rows[i].frusta);
+    }
+    report_table_begin_group(t, "published: Benthin and Wald 2009, Table 1");
+    for (int i = 0; i < PAPER_SCENES; i++) {
+        add_paper_side(t, paper_scenes[i], "P-Packet");
+        add_paper_side(t, paper_scenes[i], "P-Frusta");
+    }
+    report_table_add_note(t, "The built-in scenes stand in for the paper's: they share the number of triangles and nothing else, and hold "
+                             "other cameras. The paper's cycles are those of its own simulator, with all hardware threads and caches; "
+                             "under 'issue model' stand one thread's, without caches. Compare ratios.");
+    report_table_add_note(t, "AABB tests and intersection tests are 16-lane operations: one box or triangle against 16 rays or 16 frusta.");
+    return t;
+}
+
+static void add_ratio(report_table *t, uint64_t packet, uint64_t frusta)
+{
+    report_table_add_real(t, (double)packet / (double)frusta);
+}
+
+report_table *packet_frusta_reductions(const packet_frusta_row *rows, size_t count, const char *caption)
+{
+    static const char *const names[] = {"triangle accesses", "after culling", "AABB tests", "intersection tests",
+                                        "cycles, count model", "cycles, issue model"};
+    report_table *t = report_table_create("Reductions: packets / frusta");
+    report_table_set_caption(t, caption);
+    report_table_add_column(t, &(report_column){.name = "scene"});
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        add_number_column(t, names[i], 2);
+    report_table_begin_group(t, "measured");
+    for (size_t i = 0; i < count; i++) {
+        const packet_frusta_side *p = &rows[i].packet, *f = &rows[i].frusta;
+        report_table_begin_row(t);
+        report_table_add_text(t, rows[i].scene);
+        add_ratio(t, p->tri_accesses, f->tri_accesses);
+        add_ratio(t, p->tri_after_culling, f->tri_after_culling);
+        add_ratio(t, p->aabb_tests, f->aabb_tests);
+        add_ratio(t, p->isect_tests, f->isect_tests);
+        add_ratio(t, p->count_cycles, f->count_cycles);
+        add_ratio(t, p->issue_cycles, f->issue_cycles);
+    }
+    report_table_begin_group(t, "published: Benthin and Wald 2009, Table 1");
+    for (int i = 0; i < PAPER_SCENES; i++) {
+        report_table_begin_row(t);
+        report_table_add_text(t, paper_scenes[i]);
+        for (int m = 0; m < METRICS; m++) {
+            if (m + 1 == METRICS)
+                report_table_add_missing(t);
+            report_table_add_real(t, report_paper_find("mft_table1", paper_scenes[i], "P-Packet", paper_metrics[m]) /
+                                         report_paper_find("mft_table1", paper_scenes[i], "P-Frusta", paper_metrics[m]));
+        }
+    }
+    report_table_add_note(t, "Published ratios are formed from the published, rounded counts; two cells of the Fern and Fairy Forest rows are "
+                             "uncertain readings (reports/papers/mft_table1.csv).");
+    return t;
+}
