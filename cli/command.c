@@ -14,16 +14,42 @@ int command_fail(const base_error *err)
     return base_exit_code(err->status);
 }
 
+/* A subcommand's own parser and input, and where the parsing stands: argp itself does not tell which word it could not
+   make sense of. */
+typedef struct parse_state {
+    argp_parser_t parser;
+    void *input;
+    int next; /* index of the first word after those parsed so far */
+} parse_state;
+
+static error_t parse_and_note(int key, char *text, struct argp_state *state)
+{
+    parse_state *p = state->input;
+    if (key != ARGP_KEY_ERROR && key != ARGP_KEY_FINI)
+        p->next = state->next;
+    state->input = p->input;
+    error_t result = p->parser(key, text, state);
+    state->input = p;
+    return result;
+}
+
 base_status command_parse(const struct argp *argp, int argc, char **argv, void *input, base_error *err)
 {
-    int index = 0;
+    parse_state p = {.parser = argp->parser, .input = input};
+    struct argp noting = *argp;
+    noting.parser = parse_and_note;
+    for (int i = 1; i < argc; i++)
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-?") == 0) {
+            argp_help(argp, stdout, ARGP_HELP_STD_HELP & ~ARGP_HELP_BUG_ADDR, argv[0]);
+            exit(0);
+        }
     err->status = BASE_OK;
-    error_t result = argp_parse(argp, argc, argv, ARGP_NO_ERRS, &index, input);
+    error_t result = argp_parse(&noting, argc, argv, ARGP_NO_ERRS | ARGP_NO_HELP | ARGP_IN_ORDER, NULL, &p);
     if (err->status != BASE_OK)
         return err->status;
     if (result != 0) {
-        const char *word = index > 0 && index <= argc ? argv[index - 1] : argv[0];
-        return base_fail(err, BASE_ERR_USAGE, word, "not an option of '%s', or its value is missing (see %s --help)", argv[0], argv[0]);
+        int word = p.next < 1 ? 1 : p.next < argc ? p.next : argc - 1;
+        return base_fail(err, BASE_ERR_USAGE, argv[word], "not an option of '%s', or without its value (see %s --help)", argv[0], argv[0]);
     }
     return BASE_OK;
 }

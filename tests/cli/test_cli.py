@@ -1,0 +1,287 @@
+"""The program lanetrace from outside: exit codes, error lines, files, statistics. test_cli.py LANETRACE; TAP on stdout."""
+import base64
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+
+PROGRAM = sys.argv[1]
+HAVE_IMAGES = '--no-images' not in sys.argv[2:]
+SMALL = ['--scene', 'builtin:rooms-804', '--size', '48x40']
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
+
+
+def stats_of(*arguments):
+    result = run('run-kernel', *arguments, '--stats', '-')
+    assert result.returncode == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+def gltf(path, positions, indices=None, **changes):
+    """A .gltf of one mesh with its data inside."""
+    data = b''.join(struct.pack('<3f', *p) for p in positions)
+    attributes = {'POSITION': 0}
+    primitive = {'attributes': attributes}
+    views = [{'buffer': 0, 'byteLength': len(data)}]
+    accessors = [{'bufferView': 0, 'componentType': 5126, 'count': len(positions), 'type': 'VEC3'}]
+    if indices:
+        packed = struct.pack('<%dH' % len(indices), *indices)
+        primitive['indices'] = 1
+        views.append({'buffer': 0, 'byteOffset': len(data), 'byteLength': len(packed)})
+        accessors.append({'bufferView': 1, 'componentType': 5123, 'count': len(indices), 'type': 'SCALAR'})
+        data += packed
+    document = {
+        'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}],
+        'meshes': [{'primitives': [primitive]}], 'bufferViews': views, 'accessors': accessors,
+        'buffers': [{'byteLength': len(data), 'uri': 'data:application/octet-stream;base64,' + base64.b64encode(data).decode()}],
+    }
+    document.update(changes)
+    with open(path, 'w', encoding='utf-8') as file:
+        json.dump(document, file)
+    return path
+
+
+def fails(arguments, named, code=2):
+    """The command fails with one line that names what is wrong, and prints nothing else."""
+    result = run(*arguments)
+    lines = result.stderr.splitlines()
+    assert result.returncode == code, (arguments, result.returncode, result.stderr)
+    assert len(lines) == 1 and lines[0].startswith('lanetrace: error: '), (arguments, result.stderr)
+    assert named in lines[0], (arguments, lines[0])
+    assert result.stdout == '', (arguments, result.stdout)
+
+
+def usage__wrong_words__one_line_and_exit_2(folder):
+    fails(['frobnicate'], 'frobnicate')
+    fails(['run-kernel'], 'KERNEL')
+    fails(['run-kernel', 'mft-primary'], '--scene')
+    fails(['run-kernel', 'mft-secondary', *SMALL], 'mft-secondary')
+    fails(['run-kernel', 'mft-primary', 'packet16-primary', *SMALL], 'packet16-primary')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--frobnicate'], '--frobnicate')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--size'], '--size')
+    fails(['run-kernel', 'mft-primary', '--scene', 'builtin:nowhere-1'], 'nowhere-1')
+    for size in ('0x0', '0x10', '100000x100000', '16', 'axb', '10x', '-4x4', '10x10x10', ''):
+        fails(['run-kernel', 'mft-primary', '--scene', 'builtin:rooms-804', '--size', size], '--size')
+    for param in ('max_leaf', 'max_leaf=0', 'max_leaf=65', 'max_leaf=x', 'leaf=2', 'cull_backface=2', '=1', 'max_leaf=-1'):
+        fails(['run-kernel', 'mft-primary', *SMALL, '--param', param], '--param')
+    for field in ('vector_alu.latency=0', 'vector_alu.speed=1', 'nothing=1', 'issue_gap', 'issue_gap=fast'):
+        fails(['run-kernel', 'mft-primary', *SMALL, '--set', field], field.split('=')[0])
+    fails(['run-kernel', 'mft-primary', *SMALL, '--machine', 'pentium'], 'pentium')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--machine', folder + '/no.ini'], 'no.ini')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--model', 'guess'], 'guess')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--jobs', '0'], '--jobs')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--camera', 'nobody'], 'nobody')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--samples', '0'], '--samples')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--light-scale', 'nan'], '--light-scale')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap-of', 'aabb_tests'], '--heatmap-of')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap', folder + '/h.png', '--heatmap-of', 'units_packets'], 'units_packets')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap', folder + '/h.png', '--model', 'native'], '--heatmap')
+    fails(['report', 'mft-table9'], 'mft-table9')
+    fails(['regress', 'mft-table9'], 'mft-table9')
+    fails(['kernels', 'all'], 'all')
+    fails(['machines', 'pentium'], 'pentium')
+
+
+def usage__features_of_later_versions__said_so(folder):
+    fails(['run-kernel', 'mft-primary', *SMALL, '--model', 'core'], 'not in this version')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--error', '0.1'], 'not in this version')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--trace', folder + '/t.ltr'], 'not in this version')
+    fails(['replay', 'x.ltr'], 'not in this version')
+    assert not os.path.exists(folder + '/t.ltr')
+
+
+def scene_file__bad__one_line_names_the_file(folder):
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    missing, garbage, truncated = folder + '/missing.glb', folder + '/garbage.glb', folder + '/truncated.glb'
+    with open(garbage, 'wb') as file:
+        file.write(b'not a glTF file at all')
+    with open(truncated, 'wb') as file:
+        file.write(struct.pack('<4sII', b'glTF', 2, 400) + struct.pack('<I4s', 100, b'JSON') + b'{"asset"')
+    for path in (missing, garbage, truncated):
+        fails(['run-kernel', 'mft-primary', '--scene', path], os.path.basename(path))
+    cases = {
+        'index.gltf': dict(positions=corners, indices=[0, 1, 7]),
+        'nan.gltf': dict(positions=[(0, 0, 0), (1, float('nan'), 0), (0, 1, 0)]),
+        'infinite.gltf': dict(positions=[(0, 0, 0), (float('inf'), 0, 0), (0, 1, 0)]),
+        'empty.gltf': dict(positions=corners, nodes=[{}]),
+        'accessor.gltf': dict(positions=corners, accessors=[{'bufferView': 0, 'componentType': 5126, 'count': 4000, 'type': 'VEC3'}]),
+        'cycle.gltf': dict(positions=corners, nodes=[{'mesh': 0, 'children': [0]}]),
+    }
+    for name, case in cases.items():
+        fails(['run-kernel', 'mft-primary', '--scene', gltf(folder + '/' + name, **case)], name)
+
+
+def scene_file__no_camera_no_light__defaults_frame_it(folder):
+    path = gltf(folder + '/plain.gltf', [(0, 0, 0), (4, 0, 0), (0, 3, 0), (4, 3, 1)], [0, 1, 2, 1, 3, 2])
+    stats = stats_of('packet16-primary', '--scene', path, '--size', '64x64', '--model', 'count')
+    assert stats['scene']['triangles'] == 2 and stats['counts']['isect_tests'] > 0
+
+
+def output__unwritable__found_before_the_work(folder):
+    for option in ('--stats', '--image', '--aov', '--heatmap'):
+        path = folder + '/no-such-folder/file' + ('.exr' if option == '--aov' else '.png')
+        fails(['run-kernel', 'mft-primary', *SMALL, option, path], path)
+    fails(['run-kernel', 'mft-primary', *SMALL, '--stats', folder], folder)
+    fails(['report', '--out', folder + '/no/such', '--size', '16x16', '--no-pictures'], folder + '/no/such')
+
+
+def output__disk_full__exit_3(folder):
+    fails(['run-kernel', 'mft-primary', *SMALL, '--stats', '/dev/full'], '/dev/full', code=3)
+
+
+def output__failed_run__old_file_kept_and_nothing_left(folder):
+    old = folder + '/stats.json'
+    with open(old, 'w', encoding='ascii') as file:
+        file.write('old')
+    before = sorted(os.listdir(folder))
+    fails(['run-kernel', 'mft-primary', '--scene', folder + '/missing.glb', '--stats', old], 'missing.glb')
+    assert open(old, encoding='ascii').read() == 'old'
+    assert sorted(os.listdir(folder)) == before
+
+
+def stats__schema__as_promised(folder):
+    s = stats_of('mft-primary', *SMALL)
+    assert s['schema'] == 'lanetrace-stats-1' and s['kernel'] == 'mft-primary' and s['model'] == 'issue'
+    assert s['machine']['name'] == 'larrabee' and len(s['machine']['hash']) == 16
+    assert s['image'] == {'width': 48, 'height': 40} and s['scene']['triangles'] == 804
+    assert s['scene']['accel']['kind'] == 'bvh' and s['scene']['accel']['nodes'] > s['scene']['accel']['leaves'] > 0
+    counts = s['counts']
+    assert counts['rays'] == counts['rays_primary'] == 48 * 40
+    assert counts['tri_accesses'] >= counts['tri_after_culling'] and counts['isect_tests'] >= counts['tri_after_culling']
+    assert counts['units']['groups'] == 9 and counts['units']['frusta'] == 120 and 'packets' not in counts['units']
+    assert 'rays_shadow' not in counts and counts['aabb_tests'] == 2 * counts['traversed_inner']
+    assert s['ops']['total'] == s['ops']['vector'] + s['ops']['scalar'] == sum(s['ops']['by_op'].values())
+    assert 0 < s['ops']['lane_utilisation'] <= 1 and 0 < s['ops']['memory'] < s['ops']['total']
+    cycles = s['cycles']
+    assert sum(cycles['by_phase'].values()) == cycles['total'] == sum(cycles['by_stall'].values())
+    assert abs(sum(cycles['by_basis'].values()) - 1) < 1e-5
+    assert abs(cycles['per_ray'] - cycles['total'] / counts['rays']) < 1e-5
+    assert set(s['host']) == {'load_s', 'build_s', 'kernel_s', 'ops_per_s', 'jobs', 'slowdown_vs_native', 'peak_rss_bytes'}
+    assert set(s['build']) == {'version', 'backend', 'compiler'}
+
+
+def stats__native__only_what_needs_no_accounting(folder):
+    s = stats_of('packet16-primary', *SMALL, '--model', 'native')
+    assert 'ops' not in s and 'cycles' not in s and s['counts']['units']['packets'] == 120
+
+
+def stats__models_and_jobs__equal_counts(folder):
+    for kernel in ('packet16-primary', 'mft-primary'):
+        native, count, issue = (stats_of(kernel, *SMALL, '--model', m) for m in ('native', 'count', 'issue'))
+        assert native['counts'] == count['counts'] == issue['counts']
+        assert count['ops'] == issue['ops']
+        for jobs in ('1', '2', '5'):
+            again = stats_of(kernel, *SMALL, '--jobs', jobs)
+            assert all(again[key] == issue[key] for key in ('counts', 'ops', 'cycles', 'scene', 'machine'))
+
+
+def stats__machine_overrides__change_cycles_and_hash_only(folder):
+    base, slow = stats_of('mft-primary', *SMALL), stats_of('mft-primary', *SMALL, '--set', 'issue_gap=2')
+    assert slow['cycles']['total'] > base['cycles']['total'] and slow['cycles']['by_stall']['gap'] > 0
+    assert slow['machine']['hash'] != base['machine']['hash'] and slow['counts'] == base['counts'] and slow['ops'] == base['ops']
+    knc = stats_of('mft-primary', *SMALL, '--machine', 'knc')
+    assert knc['cycles']['total'] > base['cycles']['total'] and knc['machine']['name'] == 'knc'
+
+
+def stats__parameters__reach_the_kernel(folder):
+    deep, shallow = (stats_of('mft-primary', *SMALL, '--param', 'max_leaf=' + n) for n in ('1', '16'))
+    assert deep['scene']['accel']['leaves'] > shallow['scene']['accel']['leaves'] and deep['params']['max_leaf'] == 1
+    both, front = (stats_of('packet16-primary', *SMALL, '--param', 'cull_backface=' + n) for n in '01')
+    assert both['counts']['tri_after_culling'] == both['counts']['tri_accesses']
+    assert front['counts']['tri_after_culling'] < front['counts']['tri_accesses']
+
+
+def pictures__all_kinds__written(folder):
+    if not HAVE_IMAGES:
+        return 'built without pictures'
+    paths = [folder + '/' + name for name in ('a.png', 'b.exr', 'c.png', 'd.jpg')]
+    result = run('run-kernel', 'mft-primary', *SMALL, '--image', paths[0], '--aov', paths[1], '--heatmap', paths[2])
+    assert result.returncode == 0, result.stderr
+    result = run('run-kernel', 'mft-primary', *SMALL, '--heatmap', paths[3], '--heatmap-of', 'aabb_tests', '--model', 'native')
+    assert result.returncode == 0, result.stderr
+    assert all(os.path.getsize(path) > 500 for path in paths)
+    fails(['run-kernel', 'mft-primary', *SMALL, '--image', folder + '/a.nothing'], 'a.nothing')
+    return None
+
+
+def report__own_scene__every_form(folder):
+    out = folder + '/out'
+    scene = gltf(folder + '/own scene.gltf', [(0, 0, 0), (4, 0, 0), (0, 3, 0), (4, 3, 1)], [0, 1, 2, 1, 3, 2])
+    pictures = [] if HAVE_IMAGES else ['--no-pictures']
+    result = run('report', 'mft-primary', '--scene', scene, '--scene', scene, '--size', '40x40', '--out', out, *pictures)
+    assert result.returncode == 0, result.stderr
+    tables = json.load(open(out + '/mft-primary.json', encoding='utf-8'))['tables']
+    assert [row[1] for row in tables[0]['rows'][:4]] == ['own scene'] * 4
+    assert open(out + '/mft-primary.csv', encoding='utf-8').readline().startswith('group,scene,algorithm,rays')
+    assert open(out + '/mft-primary.txt', encoding='utf-8').read() == result.stdout
+    page = open(out + '/mft-primary.html', encoding='utf-8').read()
+    assert page.count('<table') == 2 and (not HAVE_IMAGES or page.count('<img') == 6) and 'http' not in page.replace('http-equiv', '')
+    if HAVE_IMAGES:
+        assert os.path.exists(out + '/own_scene.png') and os.path.exists(out + '/own_scene-2.png')
+
+
+def regress__stored_baseline__equal_and_differences_named(folder):
+    result = run('regress', '--baselines', folder)
+    assert result.returncode == 2 and 'mft-primary.json' in result.stderr
+    assert run('regress', '--baselines', folder, '--update').returncode == 0
+    assert run('regress', '--baselines', folder).returncode == 0
+    path = folder + '/mft-primary.json'
+    baseline = json.load(open(path, encoding='utf-8'))
+    baseline['runs'][0]['counts']['aabb_tests'] += 1
+    json.dump(baseline, open(path, 'w', encoding='utf-8'))
+    result = run('regress', '--baselines', folder)
+    assert result.returncode == 1 and 'counts.aabb_tests' in result.stdout and '1 differ' in result.stdout
+    with open(path, 'w', encoding='ascii') as file:
+        file.write('{"runs": 3')
+    fails(['regress', '--baselines', folder], 'mft-primary.json')
+
+
+def regress__project_baselines__equal(folder):
+    result = run('regress')
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+def lists__text_and_json__complete(folder):
+    for name, entry in (('kernels', 'mft-primary'), ('scenes', 'builtin:atrium-76k'), ('machines', 'knc'), ('ops', 'vmadd231ps')):
+        text, table = run(name), run(name, '--json')
+        assert text.returncode == table.returncode == 0
+        assert entry in text.stdout and any(entry in row for row in json.loads(table.stdout)['rows'])
+    assert 'vector_alu.latency' in run('machines', 'larrabee').stdout
+
+
+def help__every_subcommand__exit_0(folder):
+    for name in ('run-kernel', 'report', 'regress', 'replay', 'kernels', 'scenes', 'machines', 'ops'):
+        result = run(name, '--help')
+        assert result.returncode == 0 and 'Usage: lanetrace ' + name in result.stdout, result.stdout
+    assert run('--help').returncode == 0 and run().returncode == 2
+    version = run('--version')
+    assert version.returncode == 0 and version.stdout.startswith('lanetrace ') and version.stdout.count('\n') == 1
+
+
+CASES = [value for name, value in list(globals().items()) if '__' in name and callable(value) and not name.startswith('__')]
+
+
+def main():
+    failed = False
+    print('1..%d' % len(CASES))
+    for number, case in enumerate(CASES, 1):
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                why = case(folder)
+                print('ok %d - %s' % (number, case.__name__))
+                if why:
+                    print('# skipped: %s: %s' % (case.__name__, why))
+            except Exception as fault:  # pylint: disable=broad-except
+                failed = True
+                print('not ok %d - %s' % (number, case.__name__))
+                for line in repr(fault).splitlines():
+                    print('# ' + line)
+    return failed
+
+
+sys.exit(main())
