@@ -13,7 +13,7 @@
  */
 base_status picture_shaded(const run_result *result, report_image *out, base_error *err);
 
-/** Write Z, prim, U, V (CONTRACT 'Pictures and per-pixel results') as an EXR file. */
+/** Write Z, prim, U, V (docs/interface.md) as an EXR file. */
 base_status picture_write_aov(const run_result *result, const char *path, base_error *err);
 
 /**

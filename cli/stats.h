@@ -1,4 +1,4 @@
-/* A run's statistics: as JSON (schema lanetrace-stats-1, CONTRACT 'Statistics') and as a table. */
+/* A run's statistics: as JSON (schema lanetrace-stats-1, docs/interface.md) and as a table. */
 #ifndef CLI_STATS_H
 #define CLI_STATS_H
 

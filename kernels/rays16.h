@@ -1,7 +1,7 @@
 /* Primary rays of a tile: first rays of its 16 blocks, in lanes; the others follow by adding the block's 16 deltas.
  *
  * Benthin and Wald 2009, 4.4: rays are not stored; ray j of block f is corner[f] + delta[j], the same float operation in
- * every kernel, so all kernels trace the same bits (algorithms 1.2, B.1.2).
+ * every kernel, so all kernels trace the same bits (docs/kernels.md).
  */
 #ifndef KERNELS_RAYS16_H
 #define KERNELS_RAYS16_H

@@ -18,7 +18,7 @@ static const uint64_t tracing_counters = BIT(rays) | BIT(rays_primary) | BIT(tri
 
 const kernel_info *kernel_list(size_t *count)
 {
-    /* Leaf limits: the start values of algorithms 1.4, deep for packets, shallow for frusta. */
+    /* Leaf limits: deep for packets, shallow for frusta (docs/kernels.md). */
     static const kernel_info kernels[] = {
         {
             .name = "packet16-primary",

@@ -1,4 +1,4 @@
-/* The 16-lane slab test: one box against 16 intervals of directions from one origin. Algorithms B.1.3.
+/* The 16-lane slab test: one box against 16 intervals of directions from one origin. docs/kernels.md.
  *
  * A lane is a ray of a packet or a frustum of a group. What is tested is, per axis, an interval of direction components:
  * for a frustum the range over its rays; for a ray its own component. Both are widened by `slack` on either side,
@@ -29,7 +29,7 @@
 typedef enum slab16_path {
     SLAB16_COMMON, /* all lanes have the same strict sign on every axis: near and far planes by offset */
     SLAB16_BLEND,  /* every lane has a strict sign on every axis: near and far planes by lane */
-    SLAB16_ZERO    /* some lane's interval holds 0 on some axis: the tight test of B.1.3 */
+    SLAB16_ZERO    /* some lane's interval holds 0 on some axis: the tight test */
 } slab16_path;
 
 typedef struct slab16 {

@@ -1,4 +1,4 @@
-/* Traversal of the BVH by 16 lanes with one origin: packets of rays and groups of frusta alike. Algorithms A.1, B.1.5.
+/* Traversal of the BVH by 16 lanes with one origin: packets of rays and groups of frusta alike. docs/kernels.md.
  *
  * The stack holds nodes and masks, no distances, as in Benthin and Wald's appendix A: distances are checked again at
  * the children. The nearer child is first: the one that any lane in both enters first.

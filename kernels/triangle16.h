@@ -50,7 +50,7 @@ LRB_INLINE lrb_v16f triangle16_cross(lrb_ctx *c, lrb_v16f from, lrb_v16f to)
  * @param edges    out: the edge planes as stored
  *
  * Returns false if it was culled. One test for all rays: with a common origin the facing is theirs as well
- * (algorithms 1.1).
+ *.
  */
 LRB_INLINE bool triangle16_setup(lrb_ctx *c, lrb_ptr scratch, lrb_v16f origin, lrb_ptr record, bool cull, lrb_v16f *edges)
 {
@@ -102,7 +102,7 @@ LRB_INLINE lrb_k16 triangle16_inside(lrb_ctx *c, bool cull, lrb_k16 m, lrb_v16f 
  *
  * @param m        lanes to test
  * @param best_t   distance of each lane's nearest hit, best_id its triangle: a hit counts if it is nearer, or as near
- *                 and of a smaller id (algorithms 1.1)
+ *                 and of a smaller id
  *
  * Counts as one isect test. Returns the lanes that now have a nearer hit.
  */

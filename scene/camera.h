@@ -1,4 +1,4 @@
-/* A pinhole camera and the primary rays it stands for (CONTRACT 'Pictures and per-pixel results'). */
+/* A pinhole camera and the primary rays it stands for (docs/interface.md). */
 #ifndef SCENE_CAMERA_H
 #define SCENE_CAMERA_H
 

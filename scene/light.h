@@ -16,7 +16,7 @@ typedef struct scene_light {
 } scene_light;
 
 /**
- * Complete a light (CONTRACT 'Lights'): without an area light, a square a quarter of the bounds' diagonal above
+ * Complete a light (docs/interface.md): without an area light, a square a quarter of the bounds' diagonal above
  * their centre, a tenth of the diagonal wide, facing down; without a point light, the centre of the area light.
  */
 void scene_light_complete(scene_light *light, const double bounds_min[3], const double bounds_max[3]);

@@ -70,7 +70,7 @@ base_status scene_add_camera(scene *s, scene_camera camera, base_error *err);
 
 /**
  * Check the whole scene and complete it: bounds, hash, a camera framing the bounds if there is none, the default
- * light if there is none (a square above the centre, CONTRACT 'Lights').
+ * light if there is none (a square above the centre, docs/interface.md).
  *
  * Errors: BASE_ERR_INPUT for no triangles, a vertex that is NaN or infinite, bounds so large that float
  * arithmetic on them would overflow. The text names the triangle.

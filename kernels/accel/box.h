@@ -75,7 +75,7 @@ static inline void accel_triangle_normal(const scene_triangle *t, double n[3])
 }
 
 /**
- * Whether a triangle is left out of every acceleration structure: its normal is zero or not finite (algorithms 1.1).
+ * Whether a triangle is left out of every acceleration structure: its normal is zero or not finite.
  *
  * Where differences of coordinates have at most 26 bits (same sign and within a factor of 4 of each other, say) all
  * products are exact, and the normal is zero only if it is so exactly. Elsewhere rounding may call a sliver degenerate

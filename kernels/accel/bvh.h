@@ -62,7 +62,7 @@ bvh_options bvh_options_default(void);
 /**
  * Build the tree of a scene.
  *
- * A leaf is made as soon as the count is within max_leaf (algorithms 1.4). A larger node is split at the bin boundary
+ * A leaf is made as soon as the count is within max_leaf. A larger node is split at the bin boundary
  * of least cost (of equal ones at the lowest axis, then the lowest bin) of those that leave no more on either side
  * than the levels up to BVH_MAX_DEPTH can hold; where there is none (equal centroids) its list is cut in the middle.
  * Triangles whose normal is zero are left out and counted (kernels/accel/box.h). Boxes are exact unions of float

@@ -1,4 +1,4 @@
-/* Corner-ray culling: which of 16 frusta with one origin can a triangle's hits lie in? Algorithms B.1.4.
+/* Corner-ray culling: which of 16 frusta with one origin can a triangle's hits lie in? docs/kernels.md.
  *
  * A ray hits only if its signed volumes over the three edges have one sign. A volume is linear in the direction, so if
  * it has the wrong strict sign at the four corner rays of a frustum, it has it for every ray between them. The

@@ -1,4 +1,4 @@
-/* mft-primary: multi-frusta tracing of primary rays, Benthin and Wald 2009 (algorithms B.1).
+/* mft-primary: multi-frusta tracing of primary rays, Benthin and Wald 2009 (docs/kernels.md).
  *
  * A tile is one group: 16 frusta of 4x4 rays, one lane a frustum. Boxes and triangles are tested against the frusta; rays
  * are made only for the frusta that a triangle survives in. Nearest hits of the 256 rays live in the frame; a frustum's
@@ -95,7 +95,7 @@ LRB_INLINE void mft_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr record, lrb_
     mft_update_limits(c, s, g, updated);
 }
 
-/* Corner rays and direction intervals of the 16 frusta. The corners are the extreme rays themselves (B.1.2). */
+/* Corner rays and direction intervals of the 16 frusta. The corners are the extreme rays themselves */
 LRB_INLINE void mft_frusta(lrb_ctx *c, mft_group *g, lrb_ptr tile, lrb_v16f lo[3], lrb_v16f hi[3])
 {
     static const int ray[4] = {0, 3, 15, 12};

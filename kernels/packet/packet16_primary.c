@@ -1,4 +1,4 @@
-/* packet16-primary: 4x4 primary rays a packet, one lane a ray. P-Packet of Benthin and Wald 2009 (algorithms A.1).
+/* packet16-primary: 4x4 primary rays a packet, one lane a ray. P-Packet of Benthin and Wald 2009 (docs/kernels.md).
  *
  * The sixteen packets of a tile are traced one after another; a packet's directions and nearest hits live in registers.
  */

@@ -66,7 +66,7 @@ LRB_INLINE lrb_mem lrb_at_index(lrb_ptr base, lrb_r64 index, unsigned scale, int
 #define LRB_ASSERT_ALIGNED(m, bytes) assert((m).address % (bytes) == 0 && "misaligned vector access")
 
 /* Swizzles of a register source: the word that lane 0, 1, 2, 3 of each group of four takes, two bits each. Named as
-   the ISA writes them, lane 3 first (isa-facts 2.8). */
+   the ISA writes them, lane 3 first. */
 typedef enum lrb_swizzle {
     LRB_DCBA = 0xe4, /* identity */
     LRB_CDAB = 0xb1, /* neighbours swapped */

@@ -8,7 +8,7 @@
 #include "tests/oracles/ray.h"
 
 /**
- * Closest hit of each ray, by the rules of algorithms 1.1: edges belong to the triangle, the smaller t wins, on equal
+ * Closest hit of each ray, by the rules of docs/kernels.md: edges belong to the triangle, the smaller t wins, on equal
  * t the smaller id. Triangles parallel to the ray, and those without area, are not hit.
  *
  * @param triangles      triangle_count, below ORACLE_NO_HIT (asserted); the index is the id

@@ -19,7 +19,7 @@ typedef struct embree_oracle embree_oracle;
  * Build Embree's tree over an array of triangles.
  *
  * @param triangles       triangle_count, at most SCENE_MAX_TRIANGLES; copied. The index is the id
- * @param cull_backface   1: only triangles with N.dir < 0 (algorithms 1.1, evaluated in double) are hit
+ * @param cull_backface   1: only triangles with N.dir < 0 (evaluated in double) are hit
  * @param jobs            host threads for the building and for embree_oracle_closest, at least 1
  * @param out             owned by the caller: free with embree_oracle_destroy; NULL on failure
  *

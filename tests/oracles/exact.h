@@ -1,6 +1,6 @@
 /* Oracle O2: ray tracing's predicates in exact arithmetic. Inputs are the floats as they are, nothing is rounded.
  *
- * Definitions are those of algorithms 1.1: points of a ray are org + t*dir; a triangle's normal is
+ * Definitions are those of docs/kernels.md: points of a ray are org + t*dir; a triangle's normal is
  * N = (v1-v0) x (v2-v0) and its front is seen where N.dir < 0; its edges and vertices belong to it. All inputs must be
  * finite (asserted) unless a function says otherwise; vertices may coincide and directions may be zero. Nothing here
  * shares code with the kernels. Memory is GMP's: when it runs out, the process aborts.

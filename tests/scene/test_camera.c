@@ -181,7 +181,7 @@ static void check__each_bad_field__named(void **state)
     }
 }
 
-/* CONTRACT 'Pictures and per-pixel results', written out, with the C library's tan. */
+/* The formula of docs/interface.md, written out, with the C library's tan. */
 static void contract_direction(const scene_camera *c, unsigned w, unsigned h, unsigned x, unsigned y, double d[3])
 {
     double half = tan(c->yfov / 2);

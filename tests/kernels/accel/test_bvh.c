@@ -1,4 +1,4 @@
-/* The BVH builder: structure, equal bytes, limits and options (algorithms 1.4, H.0 X6, X7, X10, X11, X15). */
+/* The BVH builder: structure, equal bytes, limits and options (hard cases X6, X7, X10, X11, X15). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
