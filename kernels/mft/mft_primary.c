@@ -5,12 +5,11 @@
  * limit is the farthest of its 16 rays' hits, infinite until all have hit.
  */
 #include "kernels/mft/corner_cull.h"
+#include "kernels/tile_function.h"
 #include "kernels/traversal16.h"
 
 #undef LRB_SOURCE
 #define LRB_SOURCE KERNEL_SOURCE_MFT
-
-void KERNEL_TILE_FN(mft_primary)(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n);
 
 typedef struct mft_group {
     lrb_ptr constants, scratch, frame;
@@ -132,7 +131,7 @@ LRB_INLINE void mft_clear_frame(lrb_ctx *c, const mft_group *g, const slab16 *s,
     } while (lrb_jb(c, lrb_cmp_ptr(c, hit, end)));
 }
 
-void KERNEL_TILE_FN(mft_primary)(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n)
+LRB_INLINE void mft_group_tile(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n)
 {
     lrb_ptr tile_ptr = lrb_segment_at(job->tiles, tile * (uint32_t)sizeof(job_tile));
     lrb_v16f lo[3], hi[3];
@@ -158,3 +157,5 @@ void KERNEL_TILE_FN(mft_primary)(lrb_ctx *c, const kernel_job *job, uint32_t til
     mft_clear_frame(c, &g, &s, tile_ptr);
     traversal16_run_path(c, &t, &s, active);
 }
+
+KERNEL_TILE_FUNCTION(mft_primary, mft_group_tile)

@@ -2,14 +2,12 @@
  *
  * The sixteen packets of a tile are traced one after another; a packet's directions and nearest hits live in registers.
  */
-#include "kernels/kernel.h"
+#include "kernels/tile_function.h"
 #include "kernels/traversal16.h"
 #include "kernels/triangle16.h"
 
 #undef LRB_SOURCE
 #define LRB_SOURCE KERNEL_SOURCE_PACKET16
-
-void KERNEL_TILE_FN(packet16_primary)(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n);
 
 typedef struct packet16 {
     lrb_ptr scratch;
@@ -86,7 +84,7 @@ LRB_INLINE void packet16_trace(lrb_ctx *c, const traversal16 *t, packet16 *p, lr
     packet16_store(c, block_frame, &s, p);
 }
 
-void KERNEL_TILE_FN(packet16_primary)(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n)
+LRB_INLINE void packet16_tile(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n)
 {
     lrb_ptr constants = lrb_segment_at(job->constants, 0);
     lrb_ptr tile_ptr = lrb_segment_at(job->tiles, tile * (uint32_t)sizeof(job_tile));
@@ -113,3 +111,5 @@ void KERNEL_TILE_FN(packet16_primary)(lrb_ctx *c, const kernel_job *job, uint32_
     } while (lrb_jb(c, lrb_cmp_ptr(c, corner, last_corner)));
     lrb_region(c, LRB_WHOLE_TILE);
 }
+
+KERNEL_TILE_FUNCTION(packet16_primary, packet16_tile)
