@@ -24,7 +24,7 @@ typedef struct lrb_ctx {
     uint64_t idle_lanes;      /* lanes switched off by masks, summed over vector ops */
 
     /* LRB_RECORD */
-    uint32_t next_event; /* id of the next op's event; ids of a tile start at LRB_FAR */
+    uint32_t next_event; /* id of the next op's event; ids of a tile start at LRB_FAR; fewer than 2^32 ops a tile */
     uint32_t markers;    /* in the tile so far: they take a place in the batch, but no id */
     lrb_event_sink *sink;
     void *sink_user;

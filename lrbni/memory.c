@@ -13,6 +13,7 @@ base_status lrb_memory_map(lrb_memory *memory, const char *name, void *host, siz
     if (size > LRB_SCRATCH_ADDRESS - LRB_PAGE_BYTES - memory->next)
         return base_fail(err, BASE_ERR_INPUT, name, "%zu bytes more do not fit in the simulated machine's 4 GiB of memory", size);
     *out = (lrb_segment){.host = host, .address = memory->next, .size = size};
-    memory->next += (uint32_t)((size + LRB_PAGE_BYTES - 1) / LRB_PAGE_BYTES * LRB_PAGE_BYTES);
+    size_t pages = size ? (size + LRB_PAGE_BYTES - 1) / LRB_PAGE_BYTES : 1; /* an empty segment has an address of its own */
+    memory->next += (uint32_t)(pages * LRB_PAGE_BYTES);
     return BASE_OK;
 }

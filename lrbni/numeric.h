@@ -68,7 +68,7 @@ static inline float lrb_f32_fnmadd(float a, float b, float c) { return lrb_nan_r
 /* Bits that an estimate keeps: sign, exponent and 11 bits of mantissa, 12 significant bits with the hidden one. */
 #define LRB_ESTIMATE_BITS UINT32_C(0xfffff000)
 
-/** Estimate of 1/x, as vrcpresps: relative error below 2^-11. The hardware's table is not published. */
+/** Estimate of 1/x, as vrcpresps: relative error below 2^-11 where the result is normal. The hardware's table is not published. */
 static inline float lrb_f32_rcpres(float x)
 {
     return lrb_bits_float(lrb_float_bits(lrb_nan_rule2(1.0f / x, x, x)) & LRB_ESTIMATE_BITS);

@@ -63,6 +63,9 @@ uint64_t lrb_op_table_hash(void)
         hash = base_hash(hash, op->id, strlen(op->id) + 1);
         hash = base_hash(hash, op->mnemonic, strlen(op->mnemonic) + 1);
         hash = base_hash(hash, op->formula, strlen(op->formula) + 1);
+        const unsigned char properties[] = {(unsigned char)op->shape, (unsigned char)op->class_id, (unsigned char)op->mask,
+                                            (unsigned char)op->round};
+        hash = base_hash(hash, properties, sizeof properties);
     }
     return hash;
 }

@@ -48,7 +48,9 @@ void base_parallel_for(unsigned jobs, size_t pieces, base_parallel_fn *fn, void 
     if (jobs > MAX_JOBS)
         jobs = MAX_JOBS;
     if (jobs > pieces)
-        jobs = pieces ? (unsigned)pieces : 1;
+        jobs = (unsigned)pieces;
+    if (jobs < 1)
+        jobs = 1;
     atomic_init(&work.next, 0);
     for (unsigned i = 0; i < jobs; i++)
         workers[i] = (worker){.work = &work, .index = i};

@@ -1,4 +1,4 @@
-/* The 16 lanes of the back end chosen at configure time (Meson option 'backend'). */
+/* The 16 lanes of the back end chosen at configure time (Meson option 'host_backend'). */
 #ifndef LRBNI_HOST_LANES_H
 #define LRBNI_HOST_LANES_H
 

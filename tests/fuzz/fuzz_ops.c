@@ -1,0 +1,44 @@
+/* libFuzzer target: any bytes as a start state and a program of ops, which every back end of this CPU must run to the same
+ * registers, memory and events. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/lrbni/program.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void must_agree(const program_state *start, const program_state *expected, program_fn *run, const uint8_t *code, size_t size)
+{
+    program_state s = *start;
+    if (run(&s, code, size) != 0)
+        return;
+    if (memcmp(s.v, expected->v, sizeof s.v) || memcmp(s.k, expected->k, sizeof s.k) || memcmp(s.r, expected->r, sizeof s.r) ||
+        memcmp(s.memory, expected->memory, sizeof s.memory) || s.flags != expected->flags || s.p != expected->p ||
+        s.events != expected->events)
+        abort();
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    program_state start, expected;
+    memset(&start, 0, sizeof start);
+    size_t half = size / 2, registers = half < sizeof start.v ? half : sizeof start.v;
+    memcpy(start.v, data, registers); /* the first half of the input: vectors, then memory */
+    size_t rest = half - registers < sizeof start.memory ? half - registers : sizeof start.memory;
+    memcpy(start.memory, data + registers, rest);
+    for (int i = 0; i < PROGRAM_REGISTERS; i++) {
+        start.k[i] = start.v[i][3];
+        start.r[i] = start.v[i][5] * UINT64_C(0x100000001) >> (i * 8);
+    }
+    expected = start;
+    if (program_run_portable(&expected, data + half, size - half) != 0)
+        return 0;
+#ifdef PROGRAM_AVX2
+    must_agree(&start, &expected, program_run_avx2, data + half, size - half);
+#endif
+#ifdef PROGRAM_AVX512
+    must_agree(&start, &expected, program_run_avx512, data + half, size - half);
+#endif
+    must_agree(&start, &expected, program_run_portable, data + half, size - half);
+    return 0;
+}

@@ -1,0 +1,66 @@
+/* One scalar reference per row of ops.def: what the op must give, written from the row's formula and isa-facts by other
+ * means than the op (doubles, wider integers, bit by bit), and sharing no code with it.
+ *
+ * Floats are passed and returned as their bits. A row without a reference does not build: the declarations come from
+ * ops.def, and every row is called by the test of its shape (rows.h).
+ */
+#ifndef TESTS_LRBNI_ORACLE_H
+#define TESTS_LRBNI_ORACLE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* The flags that a compare leaves. */
+typedef struct ref_flags {
+    bool zero, carry, less;
+} ref_flags;
+
+/* The conditions that a conditional jump may ask for. */
+typedef enum ref_condition { REF_ZERO, REF_NOT_ZERO, REF_BELOW, REF_LESS, REF_CONDITIONS } ref_condition;
+
+/* Where a load finds lane i. */
+typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_LOAD_FORMS } ref_load_form;
+
+/* One lane of a vector op: sources in the order of the ISA, d the old destination. */
+#define REF_V_V(id) uint32_t ref_##id(uint32_t b);
+#define REF_VI_V(id) uint32_t ref_##id(uint32_t b);
+#define REF_V_VV(id) uint32_t ref_##id(uint32_t a, uint32_t b);
+#define REF_VI_VV(id) uint32_t ref_##id(uint32_t a, uint32_t b);
+#define REF_V_VVV(id) uint32_t ref_##id(uint32_t d, uint32_t a, uint32_t b);
+#define REF_K_VV(id) bool ref_##id(uint32_t a, uint32_t b);
+#define REF_KI_VV(id) bool ref_##id(uint32_t a, uint32_t b);
+/* The lane of the source that lane `lane` takes; the word of memory that it takes; the lane that word `word` receives. */
+#define REF_V_VII(id) int ref_##id(int lane, unsigned blocks, unsigned words);
+#define REF_V_M(id) int ref_##id(int lane, ref_load_form form);
+#define REF_VI_M(id) int ref_##id(int lane, ref_load_form form);
+#define REF_M_V(id) int ref_##id(int word);
+#define REF_M_VI(id) int ref_##id(int word);
+/* Masks and general registers. */
+#define REF_K_KK(id) uint32_t ref_##id(uint32_t a, uint32_t b);
+#define REF_K_K(id) uint32_t ref_##id(uint32_t a);
+#define REF_F_KK(id) ref_flags ref_##id(uint32_t a, uint32_t b);
+#define REF_K_R(id) uint32_t ref_##id(uint64_t a);
+#define REF_R_K(id) uint64_t ref_##id(uint32_t a);
+#define REF_R_R(id) uint64_t ref_##id(uint64_t a);
+#define REF_R_RR(id) uint64_t ref_##id(uint64_t a, uint64_t b);
+#define REF_R_RI(id) uint64_t ref_##id(uint64_t a, unsigned n);
+#define REF_F_RR(id) ref_flags ref_##id(uint64_t a, uint64_t b);
+/* Simulated address; the value that `bytes` of memory give; what memory becomes. */
+#define REF_P_PR(id) uint32_t ref_##id(uint32_t base, uint64_t index, unsigned scale, int32_t displacement);
+#define REF_R_M(id) uint64_t ref_##id(const unsigned char *bytes);
+#define REF_M_R(id) void ref_##id(unsigned char *bytes, uint64_t a);
+/* Whether the jump is taken; the aux of a marker's event. */
+#define REF_B_F(id) bool ref_##id(ref_flags flags, ref_condition condition);
+#define REF_B(id) bool ref_##id(void);
+#define REF_MARK(id) uint32_t ref_##id(uint32_t number);
+
+#define OP(id, mnemonic, shape, class, mask, round, source, formula) REF_##shape(id) /* uint32_t ref_add_ps(...); */
+#include "lrbni/ops.def"
+
+/** The source lane, within its group of four, of lane 0, 1, 2, 3 for each swizzle: dcba cdab badc aaaa bbbb cccc dddd dacb. */
+extern const int ref_swizzles[8][4];
+
+/** Whether the bits are a NaN's. */
+bool ref_is_nan(uint32_t bits);
+
+#endif

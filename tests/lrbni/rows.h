@@ -1,0 +1,88 @@
+/* Rows of ops.def by shape: a test defines ROW_<shape>(id) for the shapes that it serves, includes this for the others,
+ * and then ops.def with OP(...) = ROW_##shape(id). A shape that is not listed here, and so has no test, fails to build. */
+#ifndef TESTS_LRBNI_ROWS_H
+#define TESTS_LRBNI_ROWS_H
+
+#ifndef ROW_V_V
+#define ROW_V_V(id)
+#endif
+#ifndef ROW_V_VV
+#define ROW_V_VV(id)
+#endif
+#ifndef ROW_V_VVV
+#define ROW_V_VVV(id)
+#endif
+#ifndef ROW_VI_V
+#define ROW_VI_V(id)
+#endif
+#ifndef ROW_VI_VV
+#define ROW_VI_VV(id)
+#endif
+#ifndef ROW_V_VII
+#define ROW_V_VII(id)
+#endif
+#ifndef ROW_V_M
+#define ROW_V_M(id)
+#endif
+#ifndef ROW_VI_M
+#define ROW_VI_M(id)
+#endif
+#ifndef ROW_M_V
+#define ROW_M_V(id)
+#endif
+#ifndef ROW_M_VI
+#define ROW_M_VI(id)
+#endif
+#ifndef ROW_K_VV
+#define ROW_K_VV(id)
+#endif
+#ifndef ROW_KI_VV
+#define ROW_KI_VV(id)
+#endif
+#ifndef ROW_K_KK
+#define ROW_K_KK(id)
+#endif
+#ifndef ROW_K_K
+#define ROW_K_K(id)
+#endif
+#ifndef ROW_F_KK
+#define ROW_F_KK(id)
+#endif
+#ifndef ROW_K_R
+#define ROW_K_R(id)
+#endif
+#ifndef ROW_R_K
+#define ROW_R_K(id)
+#endif
+#ifndef ROW_R_R
+#define ROW_R_R(id)
+#endif
+#ifndef ROW_R_RR
+#define ROW_R_RR(id)
+#endif
+#ifndef ROW_R_RI
+#define ROW_R_RI(id)
+#endif
+#ifndef ROW_P_PR
+#define ROW_P_PR(id)
+#endif
+#ifndef ROW_R_M
+#define ROW_R_M(id)
+#endif
+#ifndef ROW_M_R
+#define ROW_M_R(id)
+#endif
+#ifndef ROW_F_RR
+#define ROW_F_RR(id)
+#endif
+#ifndef ROW_B_F
+#define ROW_B_F(id)
+#endif
+#ifndef ROW_B
+#define ROW_B(id)
+#endif
+#ifndef ROW_MARK
+#define ROW_MARK(id)
+#endif
+
+#endif
