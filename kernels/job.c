@@ -70,6 +70,7 @@ static void direction_bounds(job_constants *k, const scene_primary_rays *rays, u
         length = fmax(length, sqrt(square));
     }
     k->slack = slack_relative * (float)length;
+    k->reach = 0.5f * k->slack; /* the other half is for the rounding of the box tests */
     k->guard = guard_relative * (float)largest;
 }
 

@@ -51,6 +51,7 @@ typedef struct job_constants {
     float no_pixel[16];        /* -infinity: the hit distance of a pixel outside the image */
     float d00[3], dx[3], dy[3]; /* directions: pixel (0,0), a pixel to the right, a pixel down */
     float slack;               /* directions are widened by this much for box tests (kernels/slab16.h) */
+    float reach;               /* a hit may lie t times this outside its triangle's bounds (kernels/triangle16.h) */
     float tiny, minus_tiny;    /* smallest magnitude of a direction whose reciprocal is formed */
     float guard;               /* factor of the rounding error of corner tests (kernels/mft/corner_cull.h) */
     uint32_t no_hit;

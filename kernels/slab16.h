@@ -8,8 +8,8 @@
  *   reciprocal is infinite;
  * - the rounding of (plane - origin) * reciprocal, a few units in the last place, cannot lose a box that the ray
  *   meets (X13);
- * - the triangle test, whose edges are exact to a few units in the last place *of the distance*, cannot accept a hit
- *   that the test of an axis-aligned box around the triangle refuses (X10): every tracer sees the same hits.
+ * - a hit that the triangle test accepts within half of that of the triangle's own bounds (triangle16_in_bounds) cannot
+ *   be refused by the test of any box around the triangle (X6, X10): every tracer sees the same hits.
  *
  * The reciprocal that multiplies the near plane is that of the component of largest magnitude, for the far plane that
  * of the smallest: numeric min and max would lose hits for one of the two signs.

@@ -41,6 +41,21 @@ LRB_INLINE lrb_v16f triangle16_cross(lrb_ctx *c, lrb_v16f from, lrb_v16f to)
     return lrb_add_ps(c, lrb_sub_ps(c, p, q), lrb_sub_ps(c, p_error, q_error));
 }
 
+/*
+ * The plane's distance from N.a, N.b, N.c in groups 0 to 2: the one nearest to 0, and 0 if they differ in sign. They are
+ * equal but for rounding; where the origin is a vertex one of them is exactly 0, and then nothing is hit (X8).
+ */
+LRB_INLINE lrb_v16f triangle16_plane(lrb_ctx *c, lrb_v16f a, lrb_v16f zero, bool cull)
+{
+    lrb_v16f b = lrb_shuf128x32_ps(c, a, 0xc9, LRB_DCBA);
+    lrb_v16f third = lrb_shuf128x32_ps(c, a, 0xd2, LRB_DCBA);
+    lrb_v16f largest = lrb_max_ps(c, lrb_max_ps(c, a, b), third);
+    if (cull) /* front: all negative */
+        return largest;
+    lrb_v16f smallest = lrb_min_ps(c, lrb_min_ps(c, a, b), third);
+    return lrb_add_ps(c, lrb_max_ps(c, smallest, zero), lrb_min_ps(c, largest, zero));
+}
+
 /**
  * Translate a triangle record to the origin and leave its edge planes and plane distance in scratch.
  *
@@ -56,10 +71,10 @@ LRB_INLINE bool triangle16_setup(lrb_ctx *c, lrb_ptr scratch, lrb_v16f origin, l
 {
     lrb_v16f from = lrb_subr_ps_s3(c, origin, lrb_full_ps(lrb_at(record, 0))); /* a | b | c | normal */
     lrb_v16f normal = lrb_shuf128x32_ps(c, from, 0xff, LRB_DCBA);
-    lrb_v16f plane = triangle16_group_sum(c, lrb_mul_ps(c, normal, from));
+    lrb_v16f zero = lrb_sub_ps(c, normal, normal);
+    lrb_v16f plane = triangle16_plane(c, triangle16_group_sum(c, lrb_mul_ps(c, normal, from)), zero, cull);
     lrb_store_ps(c, lrb_at(scratch, SCRATCH_PLANE), plane);
     if (cull) {
-        lrb_v16f zero = lrb_sub_ps(c, normal, normal);
         lrb_r64 front = lrb_kmov_rk(c, lrb_cmplt_ps(c, plane, zero));
         if (lrb_jz(c, lrb_test(c, front, lrb_imm(1))))
             return false;
@@ -97,6 +112,30 @@ LRB_INLINE lrb_k16 triangle16_inside(lrb_ctx *c, bool cull, lrb_k16 m, lrb_v16f 
     return lrb_mask_cmpneq_ps(c, inside, sum, zero);
 }
 
+/*
+ * Lanes of m whose point at distance t lies in the triangle's bounds, or as good as. What this refuses are rays within
+ * rounding of an edge's line but beyond the edge's end: between the long edges of a needle both volumes are noise far
+ * past its tip (X6), and the distance of a plane seen nearly edge-on is noise as well. Box tests refuse some of those hits
+ * and let others pass, by the boxes that a kernel happens to test; so none of them may count.
+ */
+LRB_INLINE lrb_k16 triangle16_in_bounds(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch, lrb_v16f origin, lrb_ptr record, lrb_k16 m,
+                                        const lrb_v16f d[3], lrb_v16f t)
+{
+    lrb_v16f first = lrb_subr_ps_s3(c, origin, lrb_full_ps(lrb_at(record, 0))); /* a | b | c | normal */
+    lrb_v16f second = lrb_shuf128x32_ps(c, first, 0xc9, LRB_DCBA);
+    lrb_v16f third = lrb_shuf128x32_ps(c, first, 0xd2, LRB_DCBA);
+    lrb_v16f reach = lrb_mul_ps_s3(c, t, lrb_1to16_ps(RAYS16_CONSTANT(constants, reach)));
+    lrb_store_ps(c, lrb_at(scratch, SCRATCH_LOW), lrb_min_ps(c, lrb_min_ps(c, first, second), third));
+    lrb_store_ps(c, lrb_at(scratch, SCRATCH_HIGH), lrb_max_ps(c, lrb_max_ps(c, first, second), third));
+    for (int axis = 0; axis < 3; axis++) {
+        lrb_v16f above = lrb_madd231_ps(c, lrb_mov_ps(c, reach), d[axis], t);
+        lrb_v16f below = lrb_msub231_ps(c, lrb_mov_ps(c, reach), d[axis], t);
+        m = lrb_mask_cmpnlt_ps_s3(c, m, above, lrb_1to16_ps(lrb_at(scratch, SCRATCH_LOW + 4 * axis)));
+        m = lrb_mask_cmple_ps_s3(c, m, below, lrb_1to16_ps(lrb_at(scratch, SCRATCH_HIGH + 4 * axis)));
+    }
+    return m;
+}
+
 /**
  * Intersect 16 rays with the triangle that triangle16_setup left in scratch.
  *
@@ -106,8 +145,8 @@ LRB_INLINE lrb_k16 triangle16_inside(lrb_ctx *c, bool cull, lrb_k16 m, lrb_v16f 
  *
  * Counts as one isect test. Returns the lanes that now have a nearer hit.
  */
-LRB_INLINE triangle16_hits triangle16_intersect(lrb_ctx *c, lrb_ptr scratch, lrb_ptr record, bool cull, lrb_k16 m,
-                                                const lrb_v16f d[3], lrb_v16f zero, lrb_v16f best_t, lrb_v16i best_id)
+LRB_INLINE triangle16_hits triangle16_intersect(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch, lrb_v16f origin, lrb_ptr record,
+                                                bool cull, lrb_k16 m, const lrb_v16f d[3], lrb_v16f zero, lrb_v16f best_t, lrb_v16i best_id)
 {
     triangle16_hits hits = {.m = m, .t = zero, .u = zero, .v = zero};
     const int32_t normal = (int32_t)offsetof(bvh_triangle, normal);
@@ -127,6 +166,9 @@ LRB_INLINE triangle16_hits triangle16_intersect(lrb_ctx *c, lrb_ptr scratch, lrb
     lrb_k16 equal = lrb_mask_cmpeq_ps(c, hits.m, hits.t, best_t);
     lrb_k16 kept = lrb_mask_cmple_pi_s3(c, equal, best_id, lrb_1to16_pi(lrb_at(record, (int32_t)offsetof(bvh_triangle, id))));
     hits.m = lrb_kor(c, nearer, lrb_kxor(c, equal, kept));
+    if (lrb_jz(c, lrb_kortest(c, hits.m, hits.m)))
+        return hits;
+    hits.m = triangle16_in_bounds(c, constants, scratch, origin, record, hits.m, d, hits.t);
     if (lrb_jz(c, lrb_kortest(c, hits.m, hits.m)))
         return hits;
     lrb_v16f scale = rays16_reciprocal(c, sum);

@@ -31,8 +31,8 @@ LRB_INLINE bool mft_intersect(lrb_ctx *c, const slab16 *s, const mft_group *g, l
     for (int axis = 0; axis < 3; axis++)
         d[axis] = lrb_add_ps_s3(c, g->delta[axis], lrb_1to16_ps(lrb_at(corner, 64 * axis)));
     g->n->n[KERNEL_isect_tests]++;
-    triangle16_hits hits = triangle16_intersect(c, g->scratch, record, g->cull, lrb_mask(0xffff), d, s->zero,
-                                                lrb_load_ps(c, best_t), lrb_load_pi(c, best_id));
+    triangle16_hits hits = triangle16_intersect(c, g->constants, g->scratch, g->origin, record, g->cull, lrb_mask(0xffff), d,
+                                                s->zero, lrb_load_ps(c, best_t), lrb_load_pi(c, best_id));
     if (!hits.m.bits) /* the branch is triangle16_intersect's own */
         return false;
     lrb_mask_store_ps(c, best_t, hits.m, hits.t);

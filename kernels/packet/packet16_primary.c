@@ -10,7 +10,7 @@
 #define LRB_SOURCE KERNEL_SOURCE_PACKET16
 
 typedef struct packet16 {
-    lrb_ptr scratch;
+    lrb_ptr constants, scratch;
     lrb_v16f origin; /* for triangle records */
     lrb_v16f d[3];
     lrb_v16f u, v; /* of the nearest hits; their distances are the limits of the box test */
@@ -30,7 +30,8 @@ LRB_INLINE void packet16_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr record,
             p->n->n[KERNEL_tri_after_culling]++;
             p->n->n[KERNEL_isect_tests]++;
             lrb_phase(c, KERNEL_PHASE_INTERSECTION);
-            triangle16_hits hits = triangle16_intersect(c, p->scratch, record, p->cull, m, p->d, s->zero, s->limit, p->id);
+            triangle16_hits hits = triangle16_intersect(c, p->constants, p->scratch, p->origin, record, p->cull, m, p->d,
+                                                        s->zero, s->limit, p->id);
             if (hits.m.bits) { /* the branch is triangle16_intersect's own */
                 s->limit = lrb_mask_mov_ps(c, s->limit, hits.m, hits.t);
                 p->u = lrb_mask_mov_ps(c, p->u, hits.m, hits.u);
@@ -90,7 +91,7 @@ LRB_INLINE void packet16_tile(lrb_ctx *c, const kernel_job *job, uint32_t tile, 
     lrb_ptr tile_ptr = lrb_segment_at(job->tiles, tile * (uint32_t)sizeof(job_tile));
     lrb_ptr block_frame = lrb_segment_at(job->frame, tile * (uint32_t)sizeof(job_frame_tile));
     lrb_v16f first_rays[3];
-    packet16 p = {.scratch = lrb_segment_at(c->scratch, 0), .cull = job->params.cull_backface, .n = n};
+    packet16 p = {.constants = constants, .scratch = lrb_segment_at(c->scratch, 0), .cull = job->params.cull_backface, .n = n};
     traversal16 t = traversal16_of(job, p.scratch, packet16_leaf, &p, n);
     lrb_phase(c, KERNEL_PHASE_SETUP);
     t.origin = lrb_load_ps(c, RAYS16_CONSTANT(constants, origin_box));

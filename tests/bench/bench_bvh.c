@@ -10,57 +10,27 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-#include "kernels/accel/bvh.h"
 #include "lrbni/base/parallel.h"
 #include "scene/builtin.h"
 #include "scene/scene.h"
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void print_cpu(void)
-{
-    char line[512], *name = NULL;
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    while (file && !name && fgets(line, sizeof line, file))
-        if (strncmp(line, "model name", 10) == 0)
-            name = strchr(line, ':');
-    if (name)
-        printf("# cpu%s", name);
-    else
-        printf("# cpu: unknown\n");
-    if (file)
-        fclose(file);
-}
+#include "tests/bench/measure.h"
 
 /* One row; nonzero if the tree could not be built. */
 static int bench_build(const scene *s, unsigned jobs, int repeat)
 {
     double best = 0.0;
-    for (int i = 0; i < repeat; i++) {
-        bvh_options options = bvh_options_default();
-        bvh *tree = NULL;
-        base_error err = {0};
-        options.jobs = jobs;
-        double start = seconds_now();
-        if (bvh_build(s, &options, &tree, &err) != BASE_OK) {
-            fprintf(stderr, "bench_bvh: error: %s: %s\n", err.what, err.why);
-            return 1;
-        }
-        double seconds = seconds_now() - start;
-        if (i == 0 || seconds < best)
-            best = seconds;
-        if (i == repeat - 1)
-            printf("bvh/jobs%u/%s,%zu,%u,%.6f,%.4f,%zu,%u,%.4f\n", jobs, s->name, s->triangle_count, jobs, best,
-                   best * 1e6 / (double)s->triangle_count, tree->inner_count, tree->depth, tree->sah_cost);
-        bvh_destroy(&tree);
+    bvh *tree = NULL;
+    base_error err = {0};
+    bvh_options options = bvh_options_default();
+    options.jobs = jobs;
+    if (measure_bvh_build(s, &options, repeat, &best, &tree, &err) != BASE_OK) {
+        fprintf(stderr, "bench_bvh: error: %s: %s\n", err.what, err.why);
+        return 1;
     }
+    printf("bvh/jobs%u/%s,%zu,%u,%.6f,%.4f,%zu,%u,%.4f\n", jobs, s->name, s->triangle_count, jobs, best,
+           best * 1e6 / (double)s->triangle_count, tree->inner_count, tree->depth, tree->sah_cost);
+    bvh_destroy(&tree);
     fflush(stdout);
     return 0;
 }
@@ -128,8 +98,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "bench_bvh: error: --repeat: %s is not a number of at least 1\n", argv[2]);
         return 2;
     }
-    printf("# compiler: %s %s\n", BENCH_COMPILER, BENCH_FLAGS);
-    print_cpu();
+    measure_print_head();
     printf("# max_leaf 4, 16 bins; best of %d\n", repeat);
     printf("row,triangles,jobs,seconds,seconds_per_million,inner_nodes,depth,sah_cost\n");
     for (int i = first; i < argc; i++)

@@ -1,0 +1,313 @@
+/* Host speed of the kernels by level of accounting, with Embree for scale.
+ *
+ *   bench_levels [--size N] [--repeat N] [SCENE...]
+ *
+ * A SCENE is what scene_open takes (default builtin:hall-60k), the image N x N pixels (default 1024). One host thread.
+ * The ways to run a kernel take turns, so that noise of the host meets all alike; times are the median of --repeat runs
+ * (default 5). Rows of CSV on stdout; lines of '#' name the compiler and the CPU, repeat the rows as a table, and
+ * compare them with the targets. Missing a target is no failure.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernels/kernel.h"
+#include "lrbni/ctx.h"
+#include "scene/scene.h"
+#include "sim/issue.h"
+#include "sim/machine.h"
+#include "tests/bench/embree_packets.h"
+#include "tests/bench/measure.h"
+
+/* Ways to trace an image, in the order in which they take turns. */
+typedef enum way { WAY_NATIVE, WAY_COUNT, WAY_RECORD, WAY_ISSUE, WAY_EMBREE, WAY_EMBREE_ROBUST, WAYS } way;
+static const char *const way_names[WAYS] = {"native", "count", "record", "record+issue", "embree16", "embree16-robust"};
+
+static const double target_count_ratio = 1.5, target_count_vector_ops = 500e6, target_issue_events = 150e6;
+
+typedef struct bench_options {
+    unsigned size;
+    int repeat;
+} bench_options;
+
+/* One kernel on one scene. */
+typedef struct bench {
+    const kernel_info *kernel;
+    const char *scene_name;
+    kernel_job *job;
+    lrb_ctx *ctx[WAY_ISSUE + 1];
+    sim_issue *issue;
+    embree_packets *embree[2]; /* without and with the robust flag; NULL: no Embree */
+    int repeat;
+    double seconds[WAYS][MEASURE_MAX_RUNS];
+    uint64_t ops, vector_ops, events, rays; /* of one image */
+    uint64_t hits[2];                       /* Embree's */
+} bench;
+
+static int fail(const base_error *err)
+{
+    fprintf(stderr, "bench_levels: error: %s: %s\n", err->what, err->why);
+    return 1;
+}
+
+/* Trace the image once at a level of accounting. */
+static void trace_kernel(bench *b, way w)
+{
+    lrb_ctx *c = b->ctx[w];
+    kernel_counts n = {0};
+    kernel_tile_fn *tile_fn = b->kernel->tile[w == WAY_ISSUE ? LRB_RECORD : (int)w];
+    const uint32_t tiles = kernel_job_tiles(b->job);
+    uint64_t regions[SIM_MAX_REGIONS + 1];
+    for (uint32_t tile = 0; tile < tiles; tile++) {
+        lrb_ctx_begin(c);
+        if (w == WAY_ISSUE)
+            sim_issue_begin(b->issue);
+        tile_fn(c, b->job, tile, &n);
+        lrb_ctx_end(c);
+        if (w == WAY_ISSUE)
+            sim_issue_end(b->issue, regions);
+    }
+    b->rays = n.n[KERNEL_rays];
+}
+
+static void trace_embree(bench *b, int robust)
+{
+    const uint32_t tiles = kernel_job_tiles(b->job);
+    b->hits[robust] = 0;
+    for (uint32_t tile = 0; tile < tiles; tile++)
+        b->hits[robust] += embree_packets_trace(b->embree[robust], b->job, tile);
+}
+
+static bool has_way(const bench *b, way w)
+{
+    return w < WAY_EMBREE || b->embree[w - WAY_EMBREE];
+}
+
+static double time_way(bench *b, way w)
+{
+    double start = measure_seconds();
+    if (w < WAY_EMBREE)
+        trace_kernel(b, w);
+    else
+        trace_embree(b, w == WAY_EMBREE_ROBUST);
+    return measure_seconds() - start;
+}
+
+/* Ops and events of one image, from the first round, which warms the host up and is not timed. */
+static void count_work(bench *b)
+{
+    for (int w = 0; w < WAYS; w++)
+        if (has_way(b, (way)w))
+            time_way(b, (way)w);
+    b->ops = b->vector_ops = b->events = 0;
+    for (int id = 0; id < LRB_OP_COUNT; id++) {
+        uint64_t n = b->ctx[WAY_COUNT]->ops[id];
+        b->ops += n;
+        b->vector_ops += lrb_op_kind_of((lrb_op_id)id) == LRB_KIND_VECTOR ? n : 0;
+        b->events += sim_issue_get(b->issue)->ops[id];
+    }
+}
+
+static double seconds_of(const bench *b, way w)
+{
+    return measure_median(b->seconds[w], b->repeat);
+}
+
+static void print_rate(bool known, uint64_t count, double seconds)
+{
+    if (known)
+        printf(",%.0f", (double)count / seconds);
+    else
+        printf(",");
+}
+
+static void print_rows(const bench *b)
+{
+    for (int w = 0; w < WAYS; w++) {
+        if (!has_way(b, (way)w))
+            continue;
+        const double seconds = seconds_of(b, (way)w);
+        printf("levels/%s/%s/%s,%u,%.6f,%.3f", b->kernel->name, way_names[w], b->scene_name, b->job->width, seconds,
+               seconds / seconds_of(b, WAY_NATIVE));
+        print_rate(w < WAY_EMBREE, b->ops, seconds);
+        print_rate(w < WAY_EMBREE, b->vector_ops, seconds);
+        print_rate(w == WAY_RECORD || w == WAY_ISSUE, b->events, seconds);
+        print_rate(true, b->rays, seconds);
+        printf("\n");
+    }
+}
+
+static void print_million(bool known, uint64_t count, double seconds)
+{
+    if (known)
+        printf(" %12.1f", 1e-6 * (double)count / seconds);
+    else
+        printf(" %12s", "-");
+}
+
+static void print_table(const bench *b)
+{
+    printf("#\n# %s on %s, %ux%u: %.1f M ops, %.1f M of them 16-lane, %.1f M events; millions a second:\n", b->kernel->name,
+           b->scene_name, b->job->width, b->job->height, 1e-6 * (double)b->ops, 1e-6 * (double)b->vector_ops,
+           1e-6 * (double)b->events);
+    printf("# %-16s %9s %9s %12s %12s %12s %12s\n", "", "seconds", "x native", "ops", "16-lane ops", "events", "rays");
+    for (int w = 0; w < WAYS; w++) {
+        if (!has_way(b, (way)w))
+            continue;
+        const double seconds = seconds_of(b, (way)w);
+        printf("# %-16s %9.4f %9.2f", way_names[w], seconds, seconds / seconds_of(b, WAY_NATIVE));
+        print_million(w < WAY_EMBREE, b->ops, seconds);
+        print_million(w < WAY_EMBREE, b->vector_ops, seconds);
+        print_million(w == WAY_RECORD || w == WAY_ISSUE, b->events, seconds);
+        print_million(true, b->rays, seconds);
+        printf("\n");
+    }
+    if (b->embree[0])
+        printf("# Embree: %llu hits, robust %llu, of %llu rays; packets of 16 are %s here\n", (unsigned long long)b->hits[0],
+               (unsigned long long)b->hits[1], (unsigned long long)b->rays,
+               embree_packets_native16(b->embree[0]) ? "its own code" : "split");
+}
+
+static void print_target(const char *what, double value, double target, bool at_most, const char *unit)
+{
+    bool reached = at_most ? value <= target : value >= target;
+    printf("# target: %s %s %g%s: %s (%.4g%s)\n", what, at_most ? "at most" : "at least", target, unit,
+           reached ? "reached" : "not reached", value, unit);
+}
+
+static void print_targets(const bench *b)
+{
+    const double count = seconds_of(b, WAY_COUNT);
+    print_target("count is native times", count / seconds_of(b, WAY_NATIVE), target_count_ratio, true, "");
+    print_target("16-lane ops in count", 1e-6 * (double)b->vector_ops / count, 1e-6 * target_count_vector_ops, false, " M/s");
+    print_target("events in record+issue", 1e-6 * (double)b->events / seconds_of(b, WAY_ISSUE), 1e-6 * target_issue_events, false,
+                 " M/s");
+}
+
+static base_status create(bench *b, const sim_machine *machine, const bvh *tree, const scene_camera *camera, unsigned size,
+                          base_error *err)
+{
+    base_status status = kernel_job_create(tree, camera, size, size, &b->kernel->defaults, &b->job, err);
+    if (status == BASE_OK)
+        status = sim_issue_create(machine, &b->issue, err);
+    for (int w = 0; w <= WAY_ISSUE && status == BASE_OK; w++)
+        status = lrb_ctx_create(w == WAY_ISSUE ? sim_issue_events : NULL, b->issue, &b->ctx[w], err);
+    return status;
+}
+
+static void destroy(bench *b)
+{
+    for (int w = 0; w <= WAY_ISSUE; w++)
+        lrb_ctx_destroy(&b->ctx[w]);
+    sim_issue_destroy(&b->issue);
+    kernel_job_destroy(&b->job);
+}
+
+/* One kernel: build its tree, time all ways, print. */
+static base_status bench_kernel(const kernel_info *kernel, const scene *s, const sim_machine *machine, embree_packets *embree[2],
+                                const bench_options *o, base_error *err)
+{
+    bench b = {.kernel = kernel, .scene_name = s->name, .embree = {embree[0], embree[1]}, .repeat = o->repeat};
+    bvh_options build = bvh_options_default();
+    const scene_camera *camera;
+    bvh *tree = NULL;
+    double seconds;
+    build.max_leaf = kernel->defaults.max_leaf;
+    build.bins = kernel->defaults.bins;
+    base_status status = scene_find_camera(s, NULL, &camera, err);
+    if (status == BASE_OK)
+        status = measure_bvh_build(s, &build, o->repeat, &seconds, &tree, err);
+    if (status == BASE_OK)
+        status = create(&b, machine, tree, camera, o->size, err);
+    if (status == BASE_OK) {
+        printf("# BVH with leaves of up to %u: %.4f s on one thread, %.3f s per million triangles\n", build.max_leaf, seconds,
+               seconds * 1e6 / (double)s->triangle_count);
+        count_work(&b);
+        for (int run = 0; run < o->repeat; run++)
+            for (int w = 0; w < WAYS; w++)
+                if (has_way(&b, (way)w))
+                    b.seconds[w][run] = time_way(&b, (way)w);
+        print_rows(&b);
+        print_table(&b);
+        print_targets(&b);
+        fflush(stdout);
+    }
+    destroy(&b);
+    bvh_destroy(&tree);
+    return status;
+}
+
+/* Embree's two trees; without Embree a line that says why not. */
+static void create_embree(const scene *s, embree_packets *embree[2])
+{
+    for (int robust = 0; robust < 2; robust++) {
+        base_error err = {0};
+        double seconds;
+        if (embree_packets_create(s, robust, &seconds, &embree[robust], &err) != BASE_OK)
+            printf("# without Embree: %s\n", err.why);
+        else
+            printf("# Embree's BVH%s: %.4f s on one thread, %.3f s per million triangles\n", robust ? ", robust" : "", seconds,
+                   seconds * 1e6 / (double)s->triangle_count);
+    }
+}
+
+static int bench_scene(const char *spec, const sim_machine *machine, const bench_options *o)
+{
+    static const char *const kernels[] = {"packet16-primary", "mft-primary"};
+    scene *s = NULL;
+    embree_packets *embree[2] = {NULL, NULL};
+    base_error err = {0};
+    base_status status = scene_open(spec, &s, &err);
+    if (status != BASE_OK)
+        return fail(&err);
+    printf("# %s: %zu triangles\n", s->name, s->triangle_count);
+    create_embree(s, embree);
+    for (size_t i = 0; i < sizeof kernels / sizeof *kernels && status == BASE_OK; i++)
+        status = bench_kernel(kernel_find(kernels[i]), s, machine, embree, o, &err);
+    for (int robust = 0; robust < 2; robust++)
+        embree_packets_destroy(&embree[robust]);
+    scene_destroy(&s);
+    return status == BASE_OK ? 0 : fail(&err);
+}
+
+/* Index of the first scene among the arguments; 0 if an option is wrong. */
+static int parse(int argc, char **argv, bench_options *o)
+{
+    int i = 1;
+    for (; i < argc && argv[i][0] == '-'; i += 2) {
+        char *end = NULL;
+        long value = i + 1 < argc ? strtol(argv[i + 1], &end, 10) : 0;
+        bool number = end && end != argv[i + 1] && !*end;
+        if (number && strcmp(argv[i], "--size") == 0 && value >= 1 && value <= (long)JOB_MAX_SIZE)
+            o->size = (unsigned)value;
+        else if (number && strcmp(argv[i], "--repeat") == 0 && value >= 1 && value <= MEASURE_MAX_RUNS)
+            o->repeat = (int)value;
+        else
+            return 0;
+    }
+    return i;
+}
+
+int main(int argc, char **argv)
+{
+    bench_options o = {.size = 1024, .repeat = 5};
+    sim_machine *machine = NULL;
+    base_error err = {0};
+    int failed = 0, first = parse(argc, argv, &o);
+    if (first == 0) {
+        fprintf(stderr, "bench_levels: error: usage: bench_levels [--size 1..%u] [--repeat 1..%d] [SCENE...]\n", JOB_MAX_SIZE,
+                MEASURE_MAX_RUNS);
+        return 2;
+    }
+    if (sim_machine_load("larrabee", &machine, &err) != BASE_OK)
+        return fail(&err);
+    measure_print_head();
+    printf("# machine %s; median of %d runs in turn, one thread\n", machine->name, o.repeat);
+    printf("row,size,seconds,times_native,ops_per_s,vector_ops_per_s,events_per_s,rays_per_s\n");
+    if (first == argc)
+        failed = bench_scene("builtin:hall-60k", machine, &o);
+    for (int i = first; i < argc; i++)
+        failed |= bench_scene(argv[i], machine, &o);
+    sim_machine_destroy(&machine);
+    return failed;
+}

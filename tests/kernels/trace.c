@@ -1,0 +1,206 @@
+#include "tests/kernels/trace.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lrbni/base/hash.h"
+#include "lrbni/base/parallel.h"
+
+/* What a host thread gathers. */
+typedef struct trace_worker {
+    lrb_ctx *c;
+    kernel_counts counts;
+    uint64_t ops[LRB_OP_COUNT], idle_lanes, events;
+    uint64_t tile_hash; /* of the tile that is being traced */
+} trace_worker;
+
+typedef struct trace_run_state {
+    const trace_request *request;
+    const kernel_job *job;
+    kernel_tile_fn *tile;
+    trace_worker *workers;
+    uint64_t *tile_hashes;
+} trace_run_state;
+
+static void take_events(void *user, const lrb_event *events, uint32_t count)
+{
+    trace_worker *w = user;
+    for (uint32_t i = 0; i < count; i++) {
+        lrb_op_id op = (lrb_op_id)(events[i].op & LRB_EVENT_ID);
+        w->ops[op]++;
+        if (lrb_op_kind_of(op) == LRB_KIND_VECTOR)
+            w->idle_lanes += 16u - (unsigned)__builtin_popcount(events[i].mask);
+    }
+    w->events += count;
+    w->tile_hash = base_hash(w->tile_hash, events, count * sizeof *events);
+}
+
+static void trace_tile(void *user, size_t piece, unsigned worker)
+{
+    trace_run_state *r = user;
+    trace_worker *w = &r->workers[worker];
+    w->tile_hash = BASE_HASH_START;
+    lrb_ctx_begin(w->c);
+    r->tile(w->c, r->job, (uint32_t)piece, &w->counts);
+    lrb_ctx_end(w->c);
+    r->tile_hashes[piece] = w->tile_hash;
+}
+
+static void gather_pixels(const kernel_job *job, trace_picture *picture)
+{
+    for (unsigned y = 0; y < picture->height; y++)
+        for (unsigned x = 0; x < picture->width; x++) {
+            size_t i = (size_t)y * picture->width + x;
+            job_pixel p = kernel_job_pixel(job, x, y);
+            const job_frame_tile *tile = &job->frame_host[p.tile];
+            picture->id[i] = tile->id[p.block][p.pixel];
+            picture->t[i] = tile->t[p.block][p.pixel];
+            picture->u[i] = tile->u[p.block][p.pixel];
+            picture->v[i] = tile->v[p.block][p.pixel];
+        }
+}
+
+static void gather_worker(trace_picture *picture, const trace_worker *w, int level)
+{
+    for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
+        picture->counts.n[i] += w->counts.n[i];
+    for (int i = 0; i < LRB_OP_COUNT; i++)
+        picture->ops[i] += level == LRB_RECORD ? w->ops[i] : w->c->ops[i];
+    picture->idle_lanes += level == LRB_RECORD ? w->idle_lanes : w->c->idle_lanes;
+    picture->events += w->events;
+}
+
+static trace_picture picture_create(unsigned width, unsigned height)
+{
+    trace_picture p = {.width = width, .height = height, .pixels = (size_t)width * height};
+    p.id = calloc(p.pixels, sizeof *p.id);
+    p.t = calloc(p.pixels, sizeof *p.t);
+    p.u = calloc(p.pixels, sizeof *p.u);
+    p.v = calloc(p.pixels, sizeof *p.v);
+    assert_true(p.id && p.t && p.u && p.v);
+    return p;
+}
+
+static kernel_job *job_create(const trace_request *request)
+{
+    const kernel_info *kernel = kernel_find(request->kernel);
+    base_error err = {0};
+    kernel_job *job = NULL;
+    assert_non_null(kernel);
+    kernel_params params = kernel->defaults;
+    params.cull_backface = request->cull;
+    if (kernel_job_create(request->tree, request->camera, request->width, request->height, &params, &job, &err) != BASE_OK)
+        fail_msg("%s: %s", err.what, err.why);
+    return job;
+}
+
+trace_picture trace_run(const trace_request *request)
+{
+    trace_picture picture = picture_create(request->width, request->height);
+    kernel_job *job = job_create(request);
+    trace_run_state r = {.request = request, .job = job, .tile = kernel_find(request->kernel)->tile[request->level]};
+    r.workers = calloc(request->jobs, sizeof *r.workers);
+    r.tile_hashes = calloc(kernel_job_tiles(job), sizeof *r.tile_hashes);
+    assert_true(r.workers && r.tile_hashes);
+    for (unsigned i = 0; i < request->jobs; i++)
+        assert_int_equal(lrb_ctx_create(take_events, &r.workers[i], &r.workers[i].c, NULL), BASE_OK);
+    base_parallel_for(request->jobs, kernel_job_tiles(job), trace_tile, &r);
+    picture.events_hash = base_hash(BASE_HASH_START, r.tile_hashes, kernel_job_tiles(job) * sizeof *r.tile_hashes);
+    for (unsigned i = 0; i < request->jobs; i++) {
+        gather_worker(&picture, &r.workers[i], request->level);
+        lrb_ctx_destroy(&r.workers[i].c);
+    }
+    gather_pixels(job, &picture);
+    free(r.workers);
+    free(r.tile_hashes);
+    kernel_job_destroy(&job);
+    return picture;
+}
+
+void trace_free(trace_picture *picture)
+{
+    free(picture->id);
+    free(picture->t);
+    free(picture->u);
+    free(picture->v);
+    *picture = (trace_picture){0};
+}
+
+bvh *trace_tree(const scene *s, unsigned max_leaf)
+{
+    bvh_options options = bvh_options_default();
+    base_error err = {0};
+    bvh *tree = NULL;
+    options.max_leaf = max_leaf;
+    options.jobs = 2;
+    if (bvh_build(s, &options, &tree, &err) != BASE_OK)
+        fail_msg("%s: %s", err.what, err.why);
+    return tree;
+}
+
+void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, oracle_ray *rays)
+{
+    trace_request request = {.kernel = "packet16-primary", .tree = tree, .camera = camera, .width = width, .height = height};
+    kernel_job *job = job_create(&request);
+    for (unsigned y = 0; y < height; y++)
+        for (unsigned x = 0; x < width; x++) {
+            oracle_ray *ray = &rays[(size_t)y * width + x];
+            memcpy(ray->org, job->constants_host->origin_box, sizeof ray->org);
+            kernel_job_direction(job, x, y, ray->dir);
+            ray->tmin = 0.0f;
+            ray->tmax = INFINITY;
+        }
+    kernel_job_destroy(&job);
+}
+
+oracle_hit trace_hit(const trace_picture *picture, size_t pixel)
+{
+    return (oracle_hit){
+        .id = picture->id[pixel],
+        .t = (double)picture->t[pixel],
+        .u = (double)picture->u[pixel],
+        .v = (double)picture->v[pixel],
+    };
+}
+
+static int pixel_equal(const trace_picture *a, const trace_picture *b, size_t i)
+{
+    return a->id[i] == b->id[i] && memcmp(&a->t[i], &b->t[i], 4) == 0 && memcmp(&a->u[i], &b->u[i], 4) == 0 &&
+           memcmp(&a->v[i], &b->v[i], 4) == 0;
+}
+
+trace_difference trace_compare(const trace_picture *a, const trace_picture *b)
+{
+    trace_difference d = {.first = SIZE_MAX};
+    assert_true(a->width == b->width && a->height == b->height);
+    for (size_t i = 0; i < a->pixels; i++)
+        if (!pixel_equal(a, b, i)) {
+            if (d.count++ == 0)
+                d.first = i;
+        }
+    return d;
+}
+
+void trace_assert_equal(const trace_picture *a, const trace_picture *b, const char *what)
+{
+    trace_difference d = trace_compare(a, b);
+    size_t i = d.first;
+    if (d.count)
+        fail_msg("%s: %zu of %zu pixels differ, first (%zu,%zu): id %u t %a u %a v %a against id %u t %a u %a v %a", what, d.count,
+                 a->pixels, i % a->width, i / a->width, a->id[i], (double)a->t[i], (double)a->u[i], (double)a->v[i], b->id[i],
+                 (double)b->t[i], (double)b->u[i], (double)b->v[i]);
+}
+
+uint64_t trace_hash(const trace_picture *picture)
+{
+    uint64_t hash = base_hash(BASE_HASH_START, picture->id, picture->pixels * sizeof *picture->id);
+    hash = base_hash(hash, picture->t, picture->pixels * sizeof *picture->t);
+    hash = base_hash(hash, picture->u, picture->pixels * sizeof *picture->u);
+    return base_hash(hash, picture->v, picture->pixels * sizeof *picture->v);
+}

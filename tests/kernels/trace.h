@@ -1,0 +1,63 @@
+/* Runs a kernel over a whole picture, for tests: per-pixel results row by row, counts, ops, and a hash of the events. */
+#ifndef TESTS_KERNELS_TRACE_H
+#define TESTS_KERNELS_TRACE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "kernels/kernel.h"
+#include "tests/oracles/ray.h"
+
+typedef struct trace_picture {
+    unsigned width, height;
+    size_t pixels;   /* width * height */
+    uint32_t *id;    /* pixels each, row by row from the top left; owned */
+    float *t, *u, *v;
+    kernel_counts counts;
+    uint64_t ops[LRB_OP_COUNT]; /* COUNT: the context's histogram; RECORD: that of the events; NATIVE: 0 */
+    uint64_t idle_lanes;        /* likewise */
+    uint64_t events;            /* RECORD: their number ... */
+    uint64_t events_hash;       /* ... and a hash of their bytes, tile after tile */
+} trace_picture;
+
+/* What to trace; the caller owns what is pointed to. */
+typedef struct trace_request {
+    const char *kernel; /* name in the registry */
+    const bvh *tree;
+    const scene_camera *camera;
+    unsigned width, height;
+    unsigned cull; /* parameter cull_backface */
+    int level;     /* LRB_NATIVE, LRB_COUNT or LRB_RECORD */
+    unsigned jobs; /* host threads, at least 1; the result does not depend on it */
+} trace_request;
+
+/** Trace all tiles; free the result with trace_free. Any failure fails the running test. */
+trace_picture trace_run(const trace_request *request);
+
+/** Free what a picture holds. */
+void trace_free(trace_picture *picture);
+
+/** The tree with a leaf limit; free it with bvh_destroy. Any failure fails the running test. */
+bvh *trace_tree(const scene *s, unsigned max_leaf);
+
+/** The primary rays of a picture, the bits that kernels trace: width * height of them, row by row. */
+void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, oracle_ray *rays);
+
+/** One pixel's result as the oracles give theirs. */
+oracle_hit trace_hit(const trace_picture *picture, size_t pixel);
+
+/* Where two pictures differ in the bits of id, t, u or v. */
+typedef struct trace_difference {
+    size_t count, first; /* pixels that differ, and the first of them (SIZE_MAX: none) */
+} trace_difference;
+
+/** Compare two pictures of one size. */
+trace_difference trace_compare(const trace_picture *a, const trace_picture *b);
+
+/** Compare, and fail the running test with `what` and the first pixel's values if they differ. */
+void trace_assert_equal(const trace_picture *a, const trace_picture *b, const char *what);
+
+/** Hash of all of a picture's results. */
+uint64_t trace_hash(const trace_picture *picture);
+
+#endif

@@ -1,0 +1,449 @@
+#include "tests/kernels/twin.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- one ray and one triangle ---- */
+
+/* 1/x from an estimate of 12 significant bits and two Newton steps. */
+static float reciprocal(float x)
+{
+    float estimate = 1.0f / x;
+    uint32_t bits;
+    memcpy(&bits, &estimate, sizeof bits);
+    bits &= 0xfffff000u;
+    memcpy(&estimate, &bits, sizeof bits);
+    for (int step = 0; step < 2; step++)
+        estimate *= fmaf(-estimate, x, 2.0f);
+    return estimate;
+}
+
+static float dot(const float a[3], const float b[3])
+{
+    return fmaf(a[2], b[2], fmaf(a[1], b[1], a[0] * b[0]));
+}
+
+/* from x to, each component the difference of two products with their rounding errors put back. */
+static void cross(const float from[3], const float to[3], float out[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        int i = (axis + 1) % 3, j = (axis + 2) % 3;
+        float p = from[i] * to[j], q = to[i] * from[j];
+        out[axis] = (p - q) + (fmaf(from[i], to[j], -p) - fmaf(to[i], from[j], -q));
+    }
+}
+
+twin_hit twin_hit_none(void)
+{
+    return (twin_hit){.id = JOB_NO_HIT, .t = INFINITY};
+}
+
+/* N.v of the vertex that gives the least magnitude; 0 if the three differ in sign. */
+static float plane_of(const twin_triangle *t)
+{
+    float least = INFINITY, most = -INFINITY;
+    for (int v = 0; v < 3; v++) {
+        float p = (t->normal[0] * t->corner[v][0] + t->normal[1] * t->corner[v][1]) + t->normal[2] * t->corner[v][2];
+        least = fminf(least, p);
+        most = fmaxf(most, p);
+    }
+    return least > 0.0f ? least : most < 0.0f ? most : 0.0f;
+}
+
+twin_triangle twin_triangle_of(const bvh_triangle *record, const float origin[3], float reach)
+{
+    twin_triangle t = {.id = record->id, .reach = reach};
+    for (int axis = 0; axis < 3; axis++) {
+        t.corner[0][axis] = record->v0[axis] - origin[axis];
+        t.corner[1][axis] = record->v1[axis] - origin[axis];
+        t.corner[2][axis] = record->v2[axis] - origin[axis];
+        t.normal[axis] = record->normal[axis];
+        t.lo[axis] = fminf(t.corner[0][axis], fminf(t.corner[1][axis], t.corner[2][axis]));
+        t.hi[axis] = fmaxf(t.corner[0][axis], fmaxf(t.corner[1][axis], t.corner[2][axis]));
+    }
+    for (int i = 0; i < 3; i++)
+        cross(t.corner[(i + 1) % 3], t.corner[(i + 2) % 3], t.edge[i]);
+    t.plane = plane_of(&t);
+    return t;
+}
+
+/* Whether the point at distance t lies in the triangle's bounds, or as good as. */
+static int in_bounds(const twin_triangle *triangle, const float direction[3], float t)
+{
+    float reach = t * triangle->reach;
+    for (int axis = 0; axis < 3; axis++)
+        if (fmaf(direction[axis], t, reach) < triangle->lo[axis] || fmaf(direction[axis], t, -reach) > triangle->hi[axis])
+            return 0;
+    return 1;
+}
+
+int twin_intersect(const twin_triangle *triangle, int cull, const float direction[3], twin_hit *best)
+{
+    float w[3];
+    if (cull && !(triangle->plane < 0.0f))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        w[i] = dot(direction, triangle->edge[i]);
+    int front = w[0] <= 0.0f && w[1] <= 0.0f && w[2] <= 0.0f;
+    int back = !cull && w[0] >= 0.0f && w[1] >= 0.0f && w[2] >= 0.0f;
+    float sum = (w[0] + w[1]) + w[2];
+    if (!(front || back) || sum == 0.0f)
+        return 0;
+    float t = reciprocal(dot(direction, triangle->normal)) * triangle->plane;
+    if (!(t > 0.0f) || !(t < best->t || (t == best->t && triangle->id < best->id)))
+        return 0;
+    if (!in_bounds(triangle, direction, t))
+        return 0;
+    float scale = reciprocal(sum);
+    *best = (twin_hit){.id = triangle->id, .t = t, .u = w[1] * scale, .v = w[2] * scale};
+    return 1;
+}
+
+/* ---- pictures ---- */
+
+static trace_picture twin_picture(unsigned width, unsigned height)
+{
+    trace_picture p = {.width = width, .height = height, .pixels = (size_t)width * height};
+    p.id = calloc(p.pixels, sizeof *p.id);
+    p.t = calloc(p.pixels, sizeof *p.t);
+    p.u = calloc(p.pixels, sizeof *p.u);
+    p.v = calloc(p.pixels, sizeof *p.v);
+    assert_true(p.id && p.t && p.u && p.v);
+    return p;
+}
+
+static void twin_put(trace_picture *p, size_t pixel, const twin_hit *hit)
+{
+    p->id[pixel] = hit->id;
+    p->t[pixel] = hit->t;
+    p->u[pixel] = hit->u;
+    p->v[pixel] = hit->v;
+}
+
+static kernel_job *twin_job(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, int cull)
+{
+    kernel_params params = {.cull_backface = (unsigned)cull};
+    kernel_job *job = NULL;
+    base_error err = {0};
+    if (kernel_job_create(tree, camera, width, height, &params, &job, &err) != BASE_OK)
+        fail_msg("%s: %s", err.what, err.why);
+    return job;
+}
+
+trace_picture twin_brute_force(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, int cull)
+{
+    trace_picture p = twin_picture(width, height);
+    kernel_job *job = twin_job(tree, camera, width, height, cull);
+    twin_hit *best = calloc(p.pixels, sizeof *best);
+    float(*directions)[3] = calloc(p.pixels, sizeof *directions);
+    assert_true(best && directions);
+    for (size_t i = 0; i < p.pixels; i++) {
+        kernel_job_direction(job, (unsigned)(i % width), (unsigned)(i / width), directions[i]);
+        best[i] = twin_hit_none();
+    }
+    for (size_t k = 0; k < tree->record_count; k++) {
+        twin_triangle triangle = twin_triangle_of(&tree->records[k], job->constants_host->origin_box, 0.5f * job->constants_host->slack);
+        for (size_t i = 0; i < p.pixels; i++)
+            twin_intersect(&triangle, cull, directions[i], &best[i]);
+    }
+    for (size_t i = 0; i < p.pixels; i++)
+        twin_put(&p, i, &best[i]);
+    free(best);
+    free(directions);
+    kernel_job_destroy(&job);
+    return p;
+}
+
+/* ---- traversal: a unit is a packet of 16 rays, or a group of 16 frusta ---- */
+
+/* The interval of directions of one lane, and what the box test makes of it. */
+typedef struct twin_lane {
+    float lo[3], hi[3]; /* widened */
+    float near_rcp[3], back_rcp[3], far_rcp[3];
+    float limit;
+} twin_lane;
+
+typedef struct twin_unit {
+    twin_lane lane[16];
+    unsigned active;
+    int some_zero; /* a lane's interval holds 0: all lanes use the tight test */
+} twin_unit;
+
+typedef struct twin_state {
+    twin_kind kind;
+    const kernel_job *job;
+    int cull;
+    kernel_counts *n;
+    twin_unit unit;
+    uint32_t tile;
+    unsigned block;            /* of a packet */
+    float first_ray[16][3];    /* of the blocks */
+    twin_hit hit[16][16];      /* by block and pixel */
+} twin_state;
+
+static void first_rays(const kernel_job *job, uint32_t tile, float out[16][3])
+{
+    const job_constants *k = job->constants_host;
+    const job_tile *t = &job->tiles_host[tile];
+    for (int f = 0; f < 16; f++)
+        for (int axis = 0; axis < 3; axis++)
+            out[f][axis] = fmaf(t->y + k->block_y[f], k->dy[axis], fmaf(t->x + k->block_x[f], k->dx[axis], k->d00[axis]));
+}
+
+/* The intervals of a unit's lanes: of a ray itself, or of the four extreme rays of a block. */
+static void unit_intervals(twin_state *s)
+{
+    static const int corners[4] = {0, 3, 15, 12};
+    const job_constants *k = s->job->constants_host;
+    for (unsigned i = 0; i < 16; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            float lo = INFINITY, hi = -INFINITY;
+            for (int corner = 0; corner < (s->kind == TWIN_FRUSTA ? 4 : 1); corner++) {
+                unsigned block = s->kind == TWIN_FRUSTA ? i : s->block;
+                int pixel = s->kind == TWIN_FRUSTA ? corners[corner] : (int)i;
+                float d = s->first_ray[block][axis] + k->delta[axis][pixel];
+                lo = fminf(lo, d);
+                hi = fmaxf(hi, d);
+            }
+            s->unit.lane[i].lo[axis] = lo - k->slack;
+            s->unit.lane[i].hi[axis] = hi + k->slack;
+        }
+}
+
+static int sign_of(const twin_lane *l, int axis)
+{
+    return l->lo[axis] > 0.0f ? 1 : l->hi[axis] < 0.0f ? -1 : 0;
+}
+
+/* Whether the active lanes hold both signs on some axis. */
+static int signs_mixed(const twin_unit *u)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        int seen = 0;
+        for (unsigned i = 0; i < 16; i++)
+            if (u->active >> i & 1)
+                seen |= sign_of(&u->lane[i], axis) > 0 ? 1 : 2;
+        if (seen == 3)
+            return 1;
+    }
+    return 0;
+}
+
+static void unit_start(twin_state *s, unsigned active)
+{
+    twin_unit *u = &s->unit;
+    unit_intervals(s);
+    u->active = active;
+    u->some_zero = 0;
+    for (unsigned i = 0; i < 16; i++)
+        for (int axis = 0; axis < 3; axis++)
+            u->some_zero |= (active >> i & 1) && sign_of(&u->lane[i], axis) == 0;
+    for (unsigned i = 0; i < 16; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            twin_lane *l = &u->lane[i];
+            int negative = sign_of(l, axis) < 0;
+            l->limit = INFINITY;
+            l->far_rcp[axis] = reciprocal(negative ? l->hi[axis] : l->lo[axis]);
+            l->near_rcp[axis] = reciprocal(u->some_zero ? fmaxf(l->hi[axis], 1e-18f) : negative ? l->lo[axis] : l->hi[axis]);
+            l->back_rcp[axis] = reciprocal(fminf(l->lo[axis], -1e-18f));
+        }
+    s->n->n[u->some_zero ? KERNEL_units_zero : signs_mixed(u) ? KERNEL_units_blend : KERNEL_units_common]++;
+}
+
+/* One lane against one box; the entry distance in *entry. */
+static int lane_meets(const twin_lane *l, int some_zero, const bvh_node *box, const float origin[3], float *entry)
+{
+    float e = 0.0f, x = l->limit;
+    for (int axis = 0; axis < 3; axis++) {
+        float lo = box->min[axis] - origin[axis], hi = box->max[axis] - origin[axis];
+        int sign = sign_of(l, axis);
+        if (some_zero) {
+            e = fmaxf(e, fmaxf(l->near_rcp[axis] * lo, l->back_rcp[axis] * hi));
+            if (sign != 0)
+                x = fminf(x, fmaxf(l->far_rcp[axis] * lo, l->far_rcp[axis] * hi));
+        } else {
+            e = fmaxf(e, l->near_rcp[axis] * (sign > 0 ? lo : hi));
+            x = fminf(x, l->far_rcp[axis] * (sign > 0 ? hi : lo));
+        }
+    }
+    *entry = e;
+    return e <= x;
+}
+
+static unsigned unit_meets(twin_state *s, const bvh_node *box, unsigned m, float entry[16])
+{
+    unsigned hit = 0;
+    s->n->n[KERNEL_aabb_tests]++;
+    for (unsigned i = 0; i < 16; i++)
+        if (m >> i & 1)
+            hit |= (unsigned)lane_meets(&s->unit.lane[i], s->unit.some_zero, box, s->job->constants_host->origin_box, &entry[i]) << i;
+    return hit;
+}
+
+/* Lanes (frusta) whose four corner rays do not all lie beyond one edge of the triangle. */
+static unsigned survivors(const twin_state *s, const twin_triangle *triangle, unsigned m)
+{
+    static const int corners[4] = {0, 3, 15, 12};
+    const job_constants *k = s->job->constants_host;
+    unsigned kept = 0;
+    for (unsigned f = 0; f < 16; f++) {
+        int front = 1, back = !s->cull;
+        for (int edge = 0; edge < 3 && m >> f & 1; edge++) {
+            const float *e = triangle->edge[edge];
+            /* the order of additions of two swapped pairs: z x, then y */
+            float guard = ((fabsf(e[2]) + fabsf(e[0])) + fabsf(e[1])) * k->guard;
+            float smallest = INFINITY, largest = -INFINITY;
+            for (int corner = 0; corner < 4; corner++) {
+                float d[3];
+                for (int axis = 0; axis < 3; axis++)
+                    d[axis] = s->first_ray[f][axis] + k->delta[axis][corners[corner]];
+                smallest = fminf(smallest, dot(d, e));
+                largest = fmaxf(largest, dot(d, e));
+            }
+            front &= smallest <= guard;
+            back &= largest >= -guard;
+        }
+        kept |= (unsigned)((m >> f & 1) && (front || back)) << f;
+    }
+    return kept;
+}
+
+static int block_intersect(twin_state *s, const twin_triangle *triangle, unsigned block, unsigned m)
+{
+    const job_constants *k = s->job->constants_host;
+    int any = 0;
+    s->n->n[KERNEL_isect_tests]++;
+    for (unsigned j = 0; j < 16; j++) {
+        float d[3];
+        for (int axis = 0; axis < 3; axis++)
+            d[axis] = s->first_ray[block][axis] + k->delta[axis][j];
+        if (m >> j & 1)
+            any |= twin_intersect(triangle, s->cull, d, &s->hit[block][j]);
+    }
+    return any;
+}
+
+static twin_triangle unit_triangle(const twin_state *s, const bvh_triangle *record)
+{
+    return twin_triangle_of(record, s->job->constants_host->origin_box, 0.5f * s->job->constants_host->slack);
+}
+
+static void packet_leaf(twin_state *s, const bvh_triangle *records, uint32_t count, unsigned m)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        twin_triangle triangle = unit_triangle(s, &records[k]);
+        s->n->n[KERNEL_tri_accesses]++;
+        if (s->cull && !(triangle.plane < 0.0f))
+            continue;
+        s->n->n[KERNEL_tri_after_culling]++;
+        block_intersect(s, &triangle, s->block, m);
+    }
+    for (unsigned i = 0; i < 16; i++)
+        s->unit.lane[i].limit = s->hit[s->block][i].t;
+}
+
+static void frusta_leaf(twin_state *s, const bvh_triangle *records, uint32_t count, unsigned m)
+{
+    unsigned updated = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        twin_triangle triangle = unit_triangle(s, &records[k]);
+        s->n->n[KERNEL_tri_accesses]++;
+        if (s->cull && !(triangle.plane < 0.0f))
+            continue;
+        unsigned kept = survivors(s, &triangle, m);
+        s->n->n[KERNEL_tri_after_culling] += kept != 0;
+        for (unsigned f = 0; f < 16; f++)
+            if (kept >> f & 1)
+                updated |= (unsigned)block_intersect(s, &triangle, f, s->job->tiles_host[s->tile].pixels[f]) << f;
+    }
+    for (unsigned f = 0; f < 16; f++) {
+        float farthest = -INFINITY;
+        for (unsigned j = 0; j < 16; j++)
+            if (s->job->tiles_host[s->tile].pixels[f] >> j & 1)
+                farthest = fmaxf(farthest, s->hit[f][j].t);
+        if (updated >> f & 1)
+            s->unit.lane[f].limit = farthest;
+    }
+}
+
+static void visit(twin_state *s, const bvh_node *node, unsigned m)
+{
+    const bvh *tree = s->job->tree;
+    s->n->n[KERNEL_traversed_cells]++;
+    if (node->count) {
+        const bvh_triangle *records = tree->records + node->link / sizeof *records;
+        if (s->kind == TWIN_PACKETS)
+            packet_leaf(s, records, node->count, m);
+        else
+            frusta_leaf(s, records, node->count, m);
+        return;
+    }
+    const bvh_node *pair = tree->nodes + node->link / sizeof *pair;
+    float entry[2][16];
+    unsigned met[2];
+    s->n->n[KERNEL_traversed_inner]++;
+    met[0] = unit_meets(s, &pair[0], m, entry[0]);
+    met[1] = unit_meets(s, &pair[1], m, entry[1]);
+    int first = met[0] ? 0 : 1;
+    for (unsigned i = 0; met[0] && met[1] && i < 16; i++) {
+        first = (met[0] & met[1]) >> i & 1 && entry[0][i] < entry[1][i] ? 0 : 1;
+        if (first == 0)
+            break;
+    }
+    for (int turn = 0; turn < 2; turn++)
+        if (met[first ^ turn])
+            visit(s, &pair[first ^ turn], met[first ^ turn]);
+}
+
+static void trace_unit(twin_state *s, unsigned active)
+{
+    unit_start(s, active);
+    if (s->job->record_count)
+        visit(s, &s->job->tree->nodes[0], active);
+}
+
+static void trace_tile(twin_state *s)
+{
+    const job_tile *tile = &s->job->tiles_host[s->tile];
+    first_rays(s->job, s->tile, s->first_ray);
+    for (unsigned i = 0; i < 256; i++)
+        s->hit[i / 16][i % 16] = twin_hit_none();
+    if (s->kind == TWIN_FRUSTA) {
+        s->n->n[KERNEL_units_groups]++;
+        s->n->n[KERNEL_units_frusta] += (unsigned)__builtin_popcount(tile->blocks);
+        trace_unit(s, tile->blocks);
+        return;
+    }
+    for (s->block = 0; s->block < 16; s->block++)
+        if (tile->pixels[s->block]) {
+            s->n->n[KERNEL_units_packets]++;
+            trace_unit(s, tile->pixels[s->block]);
+        }
+}
+
+trace_picture twin_trace(twin_kind kind, const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, int cull)
+{
+    trace_picture p = twin_picture(width, height);
+    kernel_job *job = twin_job(tree, camera, width, height, cull);
+    twin_state *s = calloc(1, sizeof *s);
+    assert_non_null(s);
+    *s = (twin_state){.kind = kind, .job = job, .cull = cull, .n = &p.counts};
+    for (s->tile = 0; s->tile < kernel_job_tiles(job); s->tile++) {
+        trace_tile(s);
+        for (size_t i = 0; i < p.pixels; i++) {
+            job_pixel where = kernel_job_pixel(job, (unsigned)(i % width), (unsigned)(i / width));
+            if (where.tile == s->tile)
+                twin_put(&p, i, &s->hit[where.block][where.pixel]);
+        }
+    }
+    p.counts.n[KERNEL_rays] = p.counts.n[KERNEL_rays_primary] = p.pixels;
+    free(s);
+    kernel_job_destroy(&job);
+    return p;
+}
