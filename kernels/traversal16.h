@@ -48,11 +48,10 @@ typedef struct traversal16_node {
 
 LRB_INLINE traversal16_node traversal16_read(lrb_ctx *c, lrb_ptr node, lrb_k16 m)
 {
-    return (traversal16_node){
-        .link = lrb_load32(c, lrb_at(node, (int32_t)offsetof(bvh_node, link))),
-        .count = lrb_load32(c, lrb_at(node, (int32_t)offsetof(bvh_node, count))),
-        .m = m,
-    };
+    traversal16_node r = {.m = m};
+    r.link = lrb_load32(c, lrb_at(node, (int32_t)offsetof(bvh_node, link)));
+    r.count = lrb_load32(c, lrb_at(node, (int32_t)offsetof(bvh_node, count)));
+    return r;
 }
 
 LRB_INLINE lrb_ptr traversal16_push(lrb_ctx *c, lrb_ptr top, lrb_r64 node_offset, lrb_k16 m)

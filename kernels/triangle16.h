@@ -38,7 +38,9 @@ LRB_INLINE lrb_v16f triangle16_cross(lrb_ctx *c, lrb_v16f from, lrb_v16f to)
     lrb_v16f q = lrb_mul_ps_s3(c, to, lrb_swizzle_ps(from, LRB_DACB));
     lrb_v16f p_error = lrb_msub231_ps_s3(c, lrb_mov_ps(c, p), from, lrb_swizzle_ps(to, LRB_DACB));
     lrb_v16f q_error = lrb_msub231_ps_s3(c, lrb_mov_ps(c, q), to, lrb_swizzle_ps(from, LRB_DACB));
-    return lrb_add_ps(c, lrb_sub_ps(c, p, q), lrb_sub_ps(c, p_error, q_error));
+    lrb_v16f product = lrb_sub_ps(c, p, q);
+    lrb_v16f error = lrb_sub_ps(c, p_error, q_error);
+    return lrb_add_ps(c, product, error);
 }
 
 /*
@@ -53,7 +55,9 @@ LRB_INLINE lrb_v16f triangle16_plane(lrb_ctx *c, lrb_v16f a, lrb_v16f zero, bool
     if (cull) /* front: all negative */
         return largest;
     lrb_v16f smallest = lrb_min_ps(c, lrb_min_ps(c, a, b), third);
-    return lrb_add_ps(c, lrb_max_ps(c, smallest, zero), lrb_min_ps(c, largest, zero));
+    smallest = lrb_max_ps(c, smallest, zero);
+    largest = lrb_min_ps(c, largest, zero);
+    return lrb_add_ps(c, smallest, largest);
 }
 
 /**

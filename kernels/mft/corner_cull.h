@@ -42,10 +42,15 @@ LRB_INLINE void corner_cull_range(lrb_ctx *c, lrb_ptr scratch, int edge, const c
     lrb_v16f volume[4];
     for (int k = 0; k < 4; k++)
         volume[k] = triangle16_edge(c, scratch, edge, corners->d[k]);
-    *smallest = lrb_min_ps(c, lrb_min_ps(c, volume[0], volume[1]), lrb_min_ps(c, volume[2], volume[3]));
+    lrb_v16f half = lrb_min_ps(c, volume[0], volume[1]);
+    lrb_v16f other = lrb_min_ps(c, volume[2], volume[3]);
+    *smallest = lrb_min_ps(c, half, other);
     *largest = *smallest;
-    if (!cull)
-        *largest = lrb_max_ps(c, lrb_max_ps(c, volume[0], volume[1]), lrb_max_ps(c, volume[2], volume[3]));
+    if (!cull) {
+        half = lrb_max_ps(c, volume[0], volume[1]);
+        other = lrb_max_ps(c, volume[2], volume[3]);
+        *largest = lrb_max_ps(c, half, other);
+    }
 }
 
 /**

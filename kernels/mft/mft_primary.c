@@ -31,8 +31,10 @@ LRB_INLINE bool mft_intersect(lrb_ctx *c, const slab16 *s, const mft_group *g, l
     for (int axis = 0; axis < 3; axis++)
         d[axis] = lrb_add_ps_s3(c, g->delta[axis], lrb_1to16_ps(lrb_at(corner, 64 * axis)));
     g->n->n[KERNEL_isect_tests]++;
+    lrb_v16f old_t = lrb_load_ps(c, best_t);
+    lrb_v16i old_id = lrb_load_pi(c, best_id);
     triangle16_hits hits = triangle16_intersect(c, g->constants, g->scratch, g->origin, record, g->cull, lrb_mask(0xffff), d,
-                                                s->zero, lrb_load_ps(c, best_t), lrb_load_pi(c, best_id));
+                                                s->zero, old_t, old_id);
     if (!hits.m.bits) /* the branch is triangle16_intersect's own */
         return false;
     lrb_mask_store_ps(c, best_t, hits.m, hits.t);
@@ -104,8 +106,12 @@ LRB_INLINE void mft_frusta(lrb_ctx *c, mft_group *g, lrb_ptr tile, lrb_v16f lo[3
         lrb_store_ps(c, lrb_at(g->scratch, SCRATCH_CORNERS + 64 * axis), *corner[0]);
         for (int k = 1; k < 4; k++)
             *corner[k] = lrb_add_ps_s3(c, *corner[0], lrb_1to16_ps(RAYS16_CONSTANT(g->constants, delta[axis][ray[k]])));
-        lo[axis] = lrb_min_ps(c, lrb_min_ps(c, *corner[0], *corner[1]), lrb_min_ps(c, *corner[2], *corner[3]));
-        hi[axis] = lrb_max_ps(c, lrb_max_ps(c, *corner[0], *corner[1]), lrb_max_ps(c, *corner[2], *corner[3]));
+        lrb_v16f half = lrb_min_ps(c, *corner[0], *corner[1]);
+        lrb_v16f other = lrb_min_ps(c, *corner[2], *corner[3]);
+        lo[axis] = lrb_min_ps(c, half, other);
+        half = lrb_max_ps(c, *corner[0], *corner[1]);
+        other = lrb_max_ps(c, *corner[2], *corner[3]);
+        hi[axis] = lrb_max_ps(c, half, other);
         g->delta[axis] = lrb_load_ps(c, RAYS16_CONSTANT(g->constants, delta[axis]));
     }
 }

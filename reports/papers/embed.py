@@ -17,7 +17,7 @@ def main(out, paths):
         with open(path, newline='', encoding='utf-8') as file:
             for row in csv.DictReader(file):
                 text = [quoted(row[key]) for key in ('scene', 'algorithm', 'metric', 'unit', 'source', 'status', 'note')]
-                value = repr(float(row['value'])) if row['value'] else 'NAN'
+                value = repr(float(row['value'])) if row['value'] else '(double)NAN'
                 lines.append('    {%s, %s, %s, %s, %s, %s, %s, %s, %s},' % (quoted(table), *text[:3], value, *text[3:]))
     lines += ['};', '', 'const report_paper_value *report_paper_list(size_t *count)', '{',
               '    *count = sizeof values / sizeof *values;', '    return values;', '}']

@@ -428,7 +428,7 @@ static void b4__mirror_images__same_bits(void **state)
 static double edge_distance(const metamorph *m, uint32_t a, uint32_t b, const float d[3])
 {
     const uint32_t ids[2] = {a, b};
-    double least = INFINITY;
+    double least = (double)INFINITY;
     for (int k = 0; k < 2; k++)
         if (ids[k] != JOB_NO_HIT) {
             const scene_triangle *t = &m->s.triangles[ids[k]];
