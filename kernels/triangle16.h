@@ -5,8 +5,8 @@
  * barycentric weights of a, b and c. The cross products depend on the triangle alone and are formed once for
  * 16 rays or 256. They are computed to about one unit in the last place, with the rounding errors of their
  * products added back (Cornea, Harrison and Tang's symmetric form of Kahan's difference of products), and an edge
- * gives exactly the negative plane to its other triangle: shared edges do not leak (hard case X5), and edges seen
- * nearly end-on, where a plain cross product loses all digits, stay sharp. The distance is that of the plane,
+ * gives exactly the negative plane to its other triangle: edges do not leak (X5; vertices may, docs/kernels.md), and
+ * edges seen nearly end-on, where a plain cross product loses all digits, stay sharp. The distance is that of the plane,
  * N.a / N.d, with the normal from the scene's vertices.
  */
 #ifndef KERNELS_TRIANGLE16_H
