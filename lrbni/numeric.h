@@ -4,14 +4,12 @@
  * - NaN: the first source that is a NaN, in the order of the formula, made quiet; an invalid operation gives 0xffc00000.
  *   Not published for Larrabee: the x86 rule is assumed (golden cases 12, 13).
  * - Denormals are kept: the machine runs with flush-to-zero and denormals-are-zero off.
- * - min and max return the second source if either is a NaN or both are zero (ICC16, non-g variants).
  *
  * The portable back end calls these functions; the others use instructions that do the same and are tested against it.
  */
 #ifndef LRBNI_NUMERIC_H
 #define LRBNI_NUMERIC_H
 
-#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -45,6 +43,7 @@ static inline float lrb_nan_rule2(float r, float a, float b)
     return lrb_bits_float(LRB_NAN_DEFAULT);
 }
 
+/** The same for an operation on a, b, c. */
 static inline float lrb_nan_rule3(float r, float a, float b, float c)
 {
     if (r == r)
@@ -53,17 +52,6 @@ static inline float lrb_nan_rule3(float r, float a, float b, float c)
         return lrb_bits_float(lrb_float_bits(c) | LRB_NAN_QUIET);
     return lrb_nan_rule2(r, a, b);
 }
-
-static inline float lrb_f32_add(float a, float b) { return lrb_nan_rule2(a + b, a, b); }
-static inline float lrb_f32_sub(float a, float b) { return lrb_nan_rule2(a - b, a, b); }
-static inline float lrb_f32_mul(float a, float b) { return lrb_nan_rule2(a * b, a, b); }
-static inline float lrb_f32_min(float a, float b) { return a < b ? a : b; }
-static inline float lrb_f32_max(float a, float b) { return a > b ? a : b; }
-
-/** a*b + c, a*b - c and c - a*b, each with a single rounding. */
-static inline float lrb_f32_fmadd(float a, float b, float c) { return lrb_nan_rule3(fmaf(a, b, c), a, b, c); }
-static inline float lrb_f32_fmsub(float a, float b, float c) { return lrb_nan_rule3(fmaf(a, b, -c), a, b, c); }
-static inline float lrb_f32_fnmadd(float a, float b, float c) { return lrb_nan_rule3(fmaf(-a, b, c), a, b, c); }
 
 /* Bits that an estimate keeps: sign, exponent and 11 bits of mantissa, 12 significant bits with the hidden one. */
 #define LRB_ESTIMATE_BITS UINT32_C(0xfffff000)

@@ -2,6 +2,7 @@
 #ifndef LRBNI_HOST_PORTABLE_LANES_H
 #define LRBNI_HOST_PORTABLE_LANES_H
 
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -17,35 +18,77 @@ typedef struct lrb_i32x16 {
     int32_t i[16];
 } lrb_i32x16;
 
-/* LANES_F2(add, lrb_f32_add(a.f[i], b.f[i])): r.f[i] = lrb_f32_add(a.f[i], b.f[i]) for every lane */
+/* The loops below have no branch, so compilers make vector instructions of them. A NaN among the results is rare: only then
+ * does each lane go through the rule of numeric.h, in a function of its own that keeps the loops short. */
+static inline int lanes_any_nan(lrb_f32x16 a)
+{
+    uint32_t any = 0;
+    for (int i = 0; i < 16; i++)
+        any |= a.f[i] != a.f[i];
+    return any != 0;
+}
+
+static __attribute__((cold, noinline, unused)) void lanes_nan_rule2(lrb_f32x16 *r, const lrb_f32x16 *a, const lrb_f32x16 *b)
+{
+    for (int i = 0; i < 16; i++)
+        r->f[i] = lrb_nan_rule2(r->f[i], a->f[i], b->f[i]);
+}
+
+static __attribute__((cold, noinline, unused)) void lanes_nan_rule3(lrb_f32x16 *r, const lrb_f32x16 *a, const lrb_f32x16 *b,
+                                                                    const lrb_f32x16 *c)
+{
+    for (int i = 0; i < 16; i++)
+        r->f[i] = lrb_nan_rule3(r->f[i], a->f[i], b->f[i], c->f[i]);
+}
+
+/* LANES_F2(add, a.f[i] + b.f[i]): r.f[i] = a.f[i] + b.f[i] for every lane */
 #define LANES_F2(name, expression)                                             \
     static inline lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b)     \
     {                                                                          \
         lrb_f32x16 r;                                                          \
         for (int i = 0; i < 16; i++)                                           \
             r.f[i] = expression;                                               \
+        if (lanes_any_nan(r))                                                  \
+            lanes_nan_rule2(&r, &a, &b);                                       \
         return r;                                                              \
     }
-LANES_F2(add, lrb_f32_add(a.f[i], b.f[i]))
-LANES_F2(sub, lrb_f32_sub(a.f[i], b.f[i]))
-LANES_F2(mul, lrb_f32_mul(a.f[i], b.f[i]))
-LANES_F2(min, lrb_f32_min(a.f[i], b.f[i]))
-LANES_F2(max, lrb_f32_max(a.f[i], b.f[i]))
+LANES_F2(add, a.f[i] + b.f[i])
+LANES_F2(sub, a.f[i] - b.f[i])
+LANES_F2(mul, a.f[i] * b.f[i])
 #undef LANES_F2
 
-/* LANES_F3(fmadd): r.f[i] = lrb_f32_fmadd(a.f[i], b.f[i], c.f[i]) */
-#define LANES_F3(name)                                                                       \
+/* LANES_F3(fmadd, fmaf(a.f[i], b.f[i], c.f[i])): the same for three sources */
+#define LANES_F3(name, expression)                                                           \
     static inline lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b, lrb_f32x16 c)     \
     {                                                                                        \
         lrb_f32x16 r;                                                                        \
         for (int i = 0; i < 16; i++)                                                         \
-            r.f[i] = lrb_f32_##name(a.f[i], b.f[i], c.f[i]);                                 \
+            r.f[i] = expression;                                                             \
+        if (lanes_any_nan(r))                                                                \
+            lanes_nan_rule3(&r, &a, &b, &c);                                                 \
         return r;                                                                            \
     }
-LANES_F3(fmadd)
-LANES_F3(fmsub)
-LANES_F3(fnmadd)
+LANES_F3(fmadd, fmaf(a.f[i], b.f[i], c.f[i]))
+LANES_F3(fmsub, fmaf(a.f[i], b.f[i], -c.f[i]))
+LANES_F3(fnmadd, fmaf(-a.f[i], b.f[i], c.f[i]))
 #undef LANES_F3
+
+/* min and max return the second source if either is a NaN or both are zero (ICC16, non-g variants). */
+static inline lrb_f32x16 lanes_min_ps(lrb_f32x16 a, lrb_f32x16 b)
+{
+    lrb_f32x16 r;
+    for (int i = 0; i < 16; i++)
+        r.f[i] = a.f[i] < b.f[i] ? a.f[i] : b.f[i];
+    return r;
+}
+
+static inline lrb_f32x16 lanes_max_ps(lrb_f32x16 a, lrb_f32x16 b)
+{
+    lrb_f32x16 r;
+    for (int i = 0; i < 16; i++)
+        r.f[i] = a.f[i] > b.f[i] ? a.f[i] : b.f[i];
+    return r;
+}
 
 static inline lrb_f32x16 lanes_rcpres_ps(lrb_f32x16 a)
 {
@@ -71,13 +114,15 @@ LANES_I2(or, |)
 LANES_I2(xor, ^)
 #undef LANES_I2
 
+static const uint32_t lanes_bit[16] = {1, 2, 4, 8, 0x10, 0x20, 0x40, 0x80, 0x100, 0x200, 0x400, 0x800, 0x1000, 0x2000, 0x4000, 0x8000};
+
 /* LANES_CMP(cmplt_ps, f32, a.f[i] < b.f[i]): bit i of the result */
 #define LANES_CMP(name, type, condition)                                       \
     static inline uint32_t lanes_##name(lrb_##type##x16 a, lrb_##type##x16 b)  \
     {                                                                          \
         uint32_t k = 0;                                                        \
         for (int i = 0; i < 16; i++)                                           \
-            k |= (uint32_t)(condition) << i;                                   \
+            k |= (condition) ? lanes_bit[i] : 0;                               \
         return k;                                                              \
     }
 LANES_CMP(cmpeq_ps, f32, a.f[i] == b.f[i])
@@ -98,7 +143,7 @@ static inline lrb_i32x16 lanes_merge_pi(uint32_t k, lrb_i32x16 old, lrb_i32x16 n
 {
     lrb_i32x16 r;
     for (int i = 0; i < 16; i++)
-        r.i[i] = k >> i & 1 ? new_lanes.i[i] : old.i[i];
+        r.i[i] = k & lanes_bit[i] ? new_lanes.i[i] : old.i[i];
     return r;
 }
 
@@ -125,16 +170,18 @@ static inline lrb_f32x16 lanes_merge_ps(uint32_t k, lrb_f32x16 old, lrb_f32x16 n
 static inline lrb_f32x16 lanes_swizzle_ps(lrb_f32x16 a, unsigned words)
 {
     lrb_f32x16 r;
-    for (int i = 0; i < 16; i++)
-        r.f[i] = a.f[(i & 12) | (words >> (2 * (i & 3)) & 3)];
+    for (unsigned g = 0; g < 4; g++)
+        for (unsigned j = 0; j < 4; j++)
+            r.f[4 * g + j] = a.f[4 * g + (words >> (2 * j) & 3)];
     return r;
 }
 
 static inline lrb_f32x16 lanes_shuf128x32_ps(lrb_f32x16 a, unsigned blocks, unsigned words)
 {
     lrb_f32x16 r;
-    for (int i = 0; i < 16; i++)
-        r.f[i] = a.f[4 * (blocks >> (2 * (i >> 2)) & 3) + (words >> (2 * (i & 3)) & 3)];
+    for (unsigned g = 0; g < 4; g++)
+        for (unsigned j = 0; j < 4; j++)
+            r.f[4 * g + j] = a.f[4 * (blocks >> (2 * g) & 3) + (words >> (2 * j) & 3)];
     return r;
 }
 
@@ -147,9 +194,11 @@ static inline lrb_i32x16 lanes_load_pi(const void *m)
 
 static inline lrb_i32x16 lanes_load_1to16_pi(const void *m)
 {
+    int32_t word;
+    memcpy(&word, m, sizeof word);
     lrb_i32x16 r;
     for (int i = 0; i < 16; i++)
-        memcpy(&r.i[i], m, 4);
+        r.i[i] = word;
     return r;
 }
 
