@@ -37,22 +37,20 @@ void lrb_ctx_destroy(lrb_ctx **c)
 void lrb_ctx_begin(lrb_ctx *c)
 {
     c->next_event = LRB_FAR;
-    c->markers = 0;
-}
-
-static void hand_over(lrb_ctx *c, uint32_t count)
-{
-    if (c->sink && count)
-        c->sink(c->sink_user, c->events, count);
+    c->free_event = c->events;
+    c->events_end = c->events + LRB_BATCH;
 }
 
 void lrb_ctx_flush(lrb_ctx *c)
 {
-    hand_over(c, LRB_BATCH);
+    uint32_t count = (uint32_t)(c->free_event - c->events);
+    c->free_event = c->events;
+    if (c->sink && count)
+        c->sink(c->sink_user, c->events, count);
 }
 
 void lrb_ctx_end(lrb_ctx *c)
 {
-    hand_over(c, (c->next_event + c->markers) % LRB_BATCH);
+    lrb_ctx_flush(c);
     lrb_ctx_begin(c);
 }

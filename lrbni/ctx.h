@@ -25,7 +25,8 @@ typedef struct lrb_ctx {
 
     /* LRB_RECORD */
     uint32_t next_event; /* id of the next op's event; ids of a tile start at LRB_FAR; fewer than 2^32 ops a tile */
-    uint32_t markers;    /* in the tile so far: they take a place in the batch, but no id */
+    lrb_event *free_event; /* where in the batch the next event goes; markers have a place there, but no id */
+    lrb_event *events_end; /* behind the last place of the batch */
     lrb_event_sink *sink;
     void *sink_user;
     lrb_event *events; /* LRB_BATCH of them, owned */

@@ -7,25 +7,20 @@
 #include "lrbni/types.h"
 
 /* Distance back from event `id` to the event that made a source; 0 if that was long ago, or there is none. */
-LRB_INLINE uint64_t lrb_distance(uint32_t id, uint32_t from)
+LRB_INLINE uint16_t lrb_distance(uint32_t id, uint32_t from)
 {
     if (__builtin_constant_p(from) && from == 0)
         return 0;
     uint32_t distance = id - from;
-    return distance < LRB_FAR ? distance : 0;
+    return distance < LRB_FAR ? (uint16_t)distance : 0;
 }
 
 #if LRB_LEVEL == LRB_RECORD
-/* Write one event into the batch, as two words; `place` counts all events of the tile. */
-LRB_INLINE void lrb_put(lrb_ctx *c, uint32_t place, uint64_t low, uint64_t high)
+/* An event has been written at the end of the batch. */
+LRB_INLINE void lrb_put(lrb_ctx *c, lrb_event *e)
 {
-    const uint64_t words[2] = {low, high};
-    memcpy(&c->events[place % LRB_BATCH], words, sizeof words);
-}
-
-LRB_INLINE void lrb_flush_if_full(lrb_ctx *c, uint32_t places)
-{
-    if (__builtin_expect(places % LRB_BATCH == 0, 0))
+    c->free_event = e + 1;
+    if (__builtin_expect(e + 1 == c->events_end, 0))
         lrb_ctx_flush(c);
 }
 #endif
@@ -35,11 +30,12 @@ LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t ma
                              uint32_t s3, uint32_t aux)
 {
 #if LRB_LEVEL == LRB_RECORD
-    uint32_t id = c->next_event, place = id + c->markers;
-    lrb_put(c, place, (op | form) | (uint64_t)mask << 16 | lrb_distance(id, s0) << 32 | lrb_distance(id, s1) << 48,
-            lrb_distance(id, s2) | lrb_distance(id, s3) << 16 | (uint64_t)aux << 32);
+    lrb_event *e = c->free_event;
+    uint32_t id = c->next_event;
+    *e = (lrb_event){.op = (uint16_t)(op | form), .mask = (uint16_t)mask, .aux = aux,
+                     .src = {lrb_distance(id, s0), lrb_distance(id, s1), lrb_distance(id, s2), lrb_distance(id, s3)}};
     c->next_event = id + 1;
-    lrb_flush_if_full(c, place + 1);
+    lrb_put(c, e);
     return id;
 #else
 #if LRB_LEVEL == LRB_COUNT
@@ -57,10 +53,9 @@ LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t ma
 LRB_INLINE void lrb_mark(lrb_ctx *c, lrb_op_id marker, uint32_t number)
 {
 #if LRB_LEVEL == LRB_RECORD
-    uint32_t place = c->next_event + c->markers;
-    lrb_put(c, place, marker, (uint64_t)number << 32);
-    c->markers++;
-    lrb_flush_if_full(c, place + 1);
+    lrb_event *e = c->free_event;
+    *e = (lrb_event){.op = (uint16_t)marker, .aux = number};
+    lrb_put(c, e);
 #else
     (void)c, (void)marker, (void)number;
 #endif
