@@ -182,7 +182,7 @@ int command_ops(int argc, char **argv)
     if (parse_list(argc, argv, NULL, "The ops of the vector ISA: lrbni/ops.def.", &a) != BASE_OK)
         return command_fail(&err);
     report_table *t = report_table_create("Ops");
-    add_columns(t, (const char *const[]){"op", "instruction", "shape", "class", "lane i", "source", NULL});
+    add_columns(t, (const char *const[]){"op", "instruction", "shape", "class", "lane i", "chips", "source", NULL});
     for (int i = 0; i < LRB_OP_COUNT; i++) {
         const lrb_op_info *op = &lrb_op_table[i];
         report_table_begin_row(t);
@@ -191,6 +191,7 @@ int command_ops(int argc, char **argv)
         report_table_add_text(t, lrb_shape_names[op->shape]);
         report_table_add_text(t, lrb_cost_classes[op->class_id].name);
         report_table_add_text(t, op->formula);
+        report_table_add_text(t, lrb_chips_names[op->chips]);
         report_table_add_text(t, op->source);
     }
     return write_list(t, a.json, &err);

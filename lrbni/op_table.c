@@ -5,16 +5,19 @@
 #include "lrbni/base/hash.h"
 
 const lrb_op_info lrb_op_table[LRB_OP_COUNT] = {
-/* {"add_ps", "vaddps", LRB_SHAPE_V_VV, LRB_CLASS_vector_alu, LRB_MASK_MERGE, LRB_ROUND_RNE, "L1OM ...", "d[i] = ..."}, */
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) \
-    {#id, mnemonic, LRB_SHAPE_##shape, LRB_CLASS_##class, LRB_MASK_##mask, LRB_ROUND_##round, source, formula},
+/* {"add_ps", "vaddps", LRB_SHAPE_V_VV, LRB_CLASS_vector_alu, LRB_MASK_MERGE, LRB_ROUND_RNE, LRB_CHIPS_LK, "L1OM ...", "d[i] = ..."}, */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula)                          \
+    {#id, mnemonic, LRB_SHAPE_##shape, LRB_CLASS_##class, LRB_MASK_##mask, LRB_ROUND_##round, LRB_CHIPS_##chips, \
+     source, formula},
 #include "lrbni/ops.def"
 };
 
 const char *const lrb_shape_names[LRB_SHAPE_COUNT] = {
-    "V_V",  "V_VV", "V_VVV", "VI_V", "VI_VV", "V_VII", "V_M",  "VI_M", "M_V",  "M_VI", "K_VV", "KI_VV", "K_KK", "K_K",
-    "F_KK", "K_R",  "R_K",   "R_R",  "R_RR",  "R_RI",  "P_PR", "R_M",  "M_R",  "F_RR", "B_F",  "B",     "MARK",
+#define SHAPE(name, sentence) #name, /* "V_VV", */
+#include "lrbni/shapes.def"
 };
+
+const char *const lrb_chips_names[LRB_CHIPS_COUNT] = {"", "L", "K", "L K", "library"};
 
 lrb_op_kind lrb_op_kind_of(lrb_op_id id)
 {
@@ -64,7 +67,7 @@ uint64_t lrb_op_table_hash(void)
         hash = base_hash(hash, op->mnemonic, strlen(op->mnemonic) + 1);
         hash = base_hash(hash, op->formula, strlen(op->formula) + 1);
         const unsigned char properties[] = {(unsigned char)op->shape, (unsigned char)op->class_id, (unsigned char)op->mask,
-                                            (unsigned char)op->round};
+                                            (unsigned char)op->round, (unsigned char)op->chips};
         hash = base_hash(hash, properties, sizeof properties);
     }
     return hash;

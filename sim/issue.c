@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STORE_LINES = 64, FORMS = 16, MAX_SOURCES = 4, OPS = 128 };
+enum { STORE_LINES = 64, FORMS = 16, MAX_SOURCES = 4, OPS = 512 };
 _Static_assert((int)LRB_OP_COUNT <= OPS, "the counters have a place for every op");
 _Static_assert((int)LRB_CLASS_COUNT <= 32, "a set of classes is 32 bits");
 

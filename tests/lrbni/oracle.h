@@ -54,7 +54,7 @@ typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_
 #define REF_B(id) bool ref_##id(void);
 #define REF_MARK(id) uint32_t ref_##id(uint32_t number);
 
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) REF_##shape(id) /* uint32_t ref_add_ps(...); */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) REF_##shape(id) /* uint32_t ref_add_ps(...); */
 #include "lrbni/ops.def"
 
 /** The source lane, within its group of four, of lane 0, 1, 2, 3 for each swizzle: dcba cdab badc aaaa bbbb cccc dddd dacb. */

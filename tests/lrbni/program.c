@@ -118,7 +118,7 @@ static void step(machine *m)
 {
     lrb_ctx *c = m->c;
     switch (m->code[0] % LRB_OP_COUNT) {
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) \
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) \
     case LRB_OP_##id:                                                \
         STEP_##shape(id) break; /* case LRB_OP_add_ps: D = MASKED ? lrb_mask_add_ps_s3(...) : lrb_add_ps_s3(...); break; */
 #include "lrbni/ops.def"

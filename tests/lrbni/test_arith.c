@@ -41,7 +41,7 @@ typedef struct row {
 #define ROW_VI_VV(id) RUN(id, pi, SOURCE_PI, NOTHING) REF(id, ref_##id(a, b))
 #define ROW_V_VVV(id) RUN(id, ps, SOURCE_PS, OLD_PS) REF(id, ref_##id(d, a, b))
 #include "tests/lrbni/rows.h"
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) ROW_##shape(id) /* run_add_ps, ref3_add_ps */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* run_add_ps, ref3_add_ps */
 #include "lrbni/ops.def"
 
 static void check(void *user, const vector_case *v)
@@ -118,7 +118,7 @@ static void shuf128x32_ps__every_immediate__as_oracle(void **state)
 #define ROW_VI_VV(id) ENTRY(id, true, false)
 #define ROW_V_VVV(id) ENTRY(id, false, true)
 static const row rows[] = {
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) ROW_##shape(id) /* {"add_ps", LRB_OP_add_ps, ...}, */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* {"add_ps", LRB_OP_add_ps, ...}, */
 #include "lrbni/ops.def"
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };

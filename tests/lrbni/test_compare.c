@@ -24,7 +24,7 @@ typedef struct row {
 #define ROW_K_VV(id) RUN(id, ps)
 #define ROW_KI_VV(id) RUN(id, pi)
 #include "tests/lrbni/rows.h"
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) ROW_##shape(id) /* run_cmplt_ps */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* run_cmplt_ps */
 #include "lrbni/ops.def"
 
 static void check(void *user, const vector_case *v)
@@ -61,7 +61,7 @@ static void random_values(void **state)
 #define ROW_K_VV(id) {#id, LRB_OP_##id, false, run_##id, ref_##id, NULL},
 #define ROW_KI_VV(id) {#id, LRB_OP_##id, true, run_##id, ref_##id, NULL},
 static const row rows[] = {
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) ROW_##shape(id) /* {"cmplt_ps", ...}, */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* {"cmplt_ps", ...}, */
 #include "lrbni/ops.def"
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };

@@ -162,7 +162,7 @@ static void check_event(const lrb_ctx *c, unsigned op, uint32_t mask, uint32_t a
 #define ROW_R_M(id) LOAD_SCALAR(id)
 #define ROW_M_R(id) STORE_SCALAR(id)
 #include "tests/lrbni/rows.h"
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) ROW_##shape(id) /* load_ps__every_form_... */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* load_ps__every_form_... */
 #include "lrbni/ops.def"
 
 /* Only the first eight words exist; the sanitizers see any access beyond them. */
@@ -210,7 +210,7 @@ static void masked_access__no_lane_and_no_memory__no_fault(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) ROW_##shape(id) /* {"load_ps__...", ...}, */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* {"load_ps__...", ...}, */
 #include "lrbni/ops.def"
         cmocka_unit_test(masked_access__block_ends_after_the_selected_words__stays_inside),
         cmocka_unit_test(masked_access__no_lane_and_no_memory__no_fault),

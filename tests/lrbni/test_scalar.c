@@ -131,7 +131,7 @@ static void check_flags(const char *id, uint64_t a, uint64_t b, lrb_flags got, r
     }
 
 #include "tests/lrbni/rows.h"
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) ROW_##shape(id) /* kand__pairs__as_oracle */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* kand__pairs__as_oracle */
 #include "lrbni/ops.def"
 
 /* The comparison of addresses is a cmp too: unsigned, of the simulated addresses alone. */
@@ -179,7 +179,7 @@ static void cmp_ptr__pairs__flags_of_addresses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-#define OP(id, mnemonic, shape, class, mask, round, source, formula) ROW_##shape(id) /* {"kand__pairs__as_oracle", ...}, */
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* {"kand__pairs__as_oracle", ...}, */
 #include "lrbni/ops.def"
         cmocka_unit_test(cmp_ptr__pairs__flags_of_addresses),
     };

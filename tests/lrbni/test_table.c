@@ -13,7 +13,7 @@
 #include "lrbni/event.h"
 #include "lrbni/op_table.h"
 
-enum { ISSUE_MODEL_OPS = 128 }; /* sim/issue.c sizes its tables with it */
+enum { ISSUE_MODEL_OPS = 512 }; /* sim/issue.c sizes its tables with it */
 
 static void ids__all__fit_and_differ(void **state)
 {
@@ -30,13 +30,14 @@ static void ids__all__fit_and_differ(void **state)
 static void rows__text__of_the_same_id(void **state)
 {
     (void)state;
-#define OP(id_, mnemonic_, shape_, class, mask_, round_, source_, formula_)               \
+#define OP(id_, mnemonic_, shape_, class, mask_, round_, chips_, source_, formula_)       \
     assert_string_equal(lrb_op_table[LRB_OP_##id_].id, #id_);                             \
     assert_string_equal(lrb_op_table[LRB_OP_##id_].mnemonic, mnemonic_);                  \
     assert_string_equal(lrb_shape_names[lrb_op_table[LRB_OP_##id_].shape], #shape_);      \
     assert_string_equal(lrb_cost_classes[lrb_op_table[LRB_OP_##id_].class_id].name, #class); \
     assert_true(lrb_op_table[LRB_OP_##id_].mask == LRB_MASK_##mask_);                     \
-    assert_true(lrb_op_table[LRB_OP_##id_].round == LRB_ROUND_##round_);
+    assert_true(lrb_op_table[LRB_OP_##id_].round == LRB_ROUND_##round_);                  \
+    assert_true(lrb_op_table[LRB_OP_##id_].chips == LRB_CHIPS_##chips_);
 #include "lrbni/ops.def"
 }
 
