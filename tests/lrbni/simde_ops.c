@@ -3,32 +3,20 @@
 
 #include <simde/x86/avx512/add.h>
 #include <simde/x86/avx512/and.h>
-#include <simde/x86/avx512/cast.h>
 #include <simde/x86/avx512/cmp.h>
 #include <simde/x86/avx512/fmadd.h>
 #include <simde/x86/avx512/fmsub.h>
 #include <simde/x86/avx512/fnmadd.h>
-#include <simde/x86/avx512/loadu.h>
 #include <simde/x86/avx512/max.h>
 #include <simde/x86/avx512/min.h>
 #include <simde/x86/avx512/mov.h>
 #include <simde/x86/avx512/mul.h>
 #include <simde/x86/avx512/or.h>
-#include <simde/x86/avx512/storeu.h>
 #include <simde/x86/avx512/sub.h>
 #include <simde/x86/avx512/xor.h>
 
-/* FN(add, f(simde_mm512_add_ps(F(a), F(b)))): void add(a, b, c, k, out) */
-#define FN(name, statement)                                                                                              \
-    static void name(const uint32_t a[16], const uint32_t b[16], const uint32_t c[16], uint32_t k, uint32_t out[16])    \
-    {                                                                                                                    \
-        (void)a, (void)b, (void)c, (void)k;                                                                              \
-        statement;                                                                                                       \
-    }
-#define I(x) simde_mm512_loadu_si512(x)
-#define F(x) simde_mm512_castsi512_ps(I(x))
-#define PUT_I(x) simde_mm512_storeu_si512(out, x)
-#define PUT_F(x) PUT_I(simde_mm512_castps_si512(x))
+#include "tests/lrbni/simde_forms.h"
+
 FN(add, PUT_F(simde_mm512_add_ps(F(a), F(b))))
 FN(sub, PUT_F(simde_mm512_sub_ps(F(a), F(b))))
 FN(mul, PUT_F(simde_mm512_mul_ps(F(a), F(b))))
