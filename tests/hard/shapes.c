@@ -36,6 +36,13 @@ void shapes_put(shapes_place place, const double p[3], float out[3])
         out[k] = (float)(place.scale * p[k] + place.offset);
 }
 
+void shapes_put_point(base_random *r, shapes_place place, double size, float out[3])
+{
+    double p[3];
+    shapes_point(r, size, p);
+    shapes_put(place, p, out);
+}
+
 void shapes_scaled(const double d[3], double length, float out[3])
 {
     double is = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);

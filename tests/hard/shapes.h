@@ -27,6 +27,9 @@ void shapes_direction(base_random *r, double out[3]);
 /** scale * p + offset, rounded to float. */
 void shapes_put(shapes_place place, const double p[3], float out[3]);
 
+/** A random point in [-size, size]^3, put there. */
+void shapes_put_point(base_random *r, shapes_place place, double size, float out[3]);
+
 /** d scaled to `length`, rounded to float. */
 void shapes_scaled(const double d[3], double length, float out[3]);
 

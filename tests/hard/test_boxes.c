@@ -120,10 +120,8 @@ static void x1__zero_components__boxes_met_as_exactly(void **state)
     for (int i = 0; i < 20000; i++) {
         shapes_place place = shapes_places[i % SHAPES_PLACES];
         float lo[3], hi[3], org[3], d[3];
-        double o[3];
         random_box(&r, place, 0, lo, hi);
-        shapes_point(&r, 2, o);
-        shapes_put(place, o, org);
+        shapes_put_point(&r, place, 2, org);
         rays_with_zeros(&r, 1 + (unsigned)i % 6, d);
         check_ray(&t, org, d, lo, hi, "x1");
     }
@@ -137,11 +135,9 @@ static void x1__zeros_of_either_sign__same_answer(void **state)
     (void)state;
     for (int i = 0; i < 20000; i++) {
         float lo[3], hi[3], org[3], d[3];
-        double o[3];
         unsigned zeros = 1 + (unsigned)i % 6;
         random_box(&r, shapes_places[i % SHAPES_PLACES], 0, lo, hi);
-        shapes_point(&r, 2, o);
-        shapes_put(shapes_places[i % SHAPES_PLACES], o, org);
+        shapes_put_point(&r, shapes_places[i % SHAPES_PLACES], 2, org);
         rays_with_zeros(&r, zeros, d);
         set_box(&t, lo, hi);
         int met = ray_meets(&t, org, d);
@@ -198,10 +194,9 @@ static void x3__zero_thickness__met_as_exactly(void **state)
     for (int i = 0; i < 40000; i++) {
         shapes_place place = shapes_places[i % SHAPES_PLACES];
         float lo[3], hi[3], org[3], d[3];
-        double o[3], to[3];
+        double to[3];
         random_box(&r, place, 1 + (unsigned)i % 7, lo, hi);
-        shapes_point(&r, 3, o);
-        shapes_put(place, o, org);
+        shapes_put_point(&r, place, 3, org);
         for (int k = 0; k < 3; k++)
             to[k] = base_random_range(&r, (double)lo[k], (double)hi[k] + (i & 1 ? place.scale * 1e-3 : 0)) - (double)org[k];
         if (to[0] == 0 && to[1] == 0 && to[2] == 0)
@@ -222,10 +217,8 @@ static void x4__denormal_and_tiny_components__boxes_met_as_exactly(void **state)
     (void)state;
     for (int i = 0; i < 20000; i++) {
         float lo[3], hi[3], org[3], d[3];
-        double o[3];
         random_box(&r, shapes_places[i % SHAPES_PLACES], 0, lo, hi);
-        shapes_point(&r, 2, o);
-        shapes_put(shapes_places[i % SHAPES_PLACES], o, org);
+        shapes_put_point(&r, shapes_places[i % SHAPES_PLACES], 2, org);
         rays_with_zeros(&r, i & 8 ? 1u << i % 3 | 1u << (i + 1) % 3 : 1u << i % 3, d);
         for (int k = 0; k < (i & 8 ? 2 : 1); k++)
             d[(i + k) % 3] = tiny[base_random_bits(&r) % (sizeof tiny / sizeof *tiny)];
@@ -243,11 +236,10 @@ static void a1__packets_across_axis_planes__met_if_a_ray_does(void **state)
     for (int i = 0; i < 20000; i++) {
         shapes_place place = shapes_places[i % SHAPES_PLACES];
         float lo[3], hi[3], org[3], d[16][3];
-        double o[3], base[3];
+        double base[3];
         int exact = 0;
         random_box(&r, place, 0, lo, hi);
-        shapes_point(&r, 2, o);
-        shapes_put(place, o, org);
+        shapes_put_point(&r, place, 2, org);
         shapes_direction(&r, base);
         base[i % 3] *= 0.01; /* close to an axis plane */
         for (int j = 0; j < 16; j++) {
@@ -279,11 +271,9 @@ static void check_frusta(box_test *t, base_random *r, int i, double width, int t
 {
     shapes_place place = shapes_places[i % SHAPES_PLACES];
     float lo[3], hi[3], org[3], first[3], right[3], down[3], corner[4][3], big_lo[3], big_hi[3];
-    double o[3];
     unsigned f = (unsigned)base_random_bits(r) % 16;
     random_box(r, place, i & 64 ? (unsigned)i % 8 : 0, lo, hi);
-    shapes_point(r, 2, o);
-    shapes_put(place, o, org);
+    shapes_put_point(r, place, 2, org);
     if (i & 128) /* box face through the origin (B3) */
         org[i % 3] = i & 256 ? lo[i % 3] : hi[i % 3];
     rays_grid(r, width, touch, first, right, down);

@@ -29,11 +29,10 @@ typedef struct grid {
 static grid random_grid(base_random *r, shapes_place place, double width)
 {
     grid g;
-    double f[3], u[3], v[3], o[3], spin = base_random_range(r, 0.3, 1.7);
+    double f[3], u[3], v[3], spin = base_random_range(r, 0.3, 1.7);
     shapes_direction(r, f);
     shapes_frame(f, u, v);
-    shapes_point(r, 1, o);
-    shapes_put(place, o, g.org);
+    shapes_put_point(r, place, 1, g.org);
     for (int k = 0; k < 3; k++) {
         double a = (u[k] * spin + v[k] * 0.3) * width / 16, b = (v[k] * spin - u[k] * 0.2) * width / 16;
         g.right[k] = (float)a;

@@ -31,9 +31,7 @@ static void b2__frusta_of_unlike_signs__each_as_alone(void **state)
         bvh *tree = trace_tree(&s, 4);
         bundle b = bundle_create(kernels[1], tree, i & 1);
         float org[3], first[3], right[3], down[3];
-        double o[3];
-        shapes_point(&r, 1.5, o);
-        shapes_put(shapes_places[1], o, org);
+        shapes_put_point(&r, shapes_places[1], 1.5, org);
         rays_grid(&r, 2, i % 8, first, right, down);
         bundle_grid(&b, org, first, right, down, 0xffff);
         bundle_trace(&b);
@@ -65,9 +63,7 @@ static void x13__estimated_reciprocals__hits_of_trying_all_triangles(void **stat
             bundle b = bundle_create(kernels[0], tree, cull);
             for (int k = 0; k < 150; k++) {
                 float org[3], d[16][3];
-                double o[3];
-                shapes_point(&r, 1.5, o);
-                shapes_put(place, o, org);
+                shapes_put_point(&r, place, 1.5, org);
                 rays_wild(&r, d);
                 bundle_rays(&b, org, d, 0xffff);
                 bundle_trace(&b);
@@ -89,9 +85,7 @@ static void a3__identical_rays__as_one_ray(void **state)
     (void)state;
     for (int i = 0; i < 500; i++) {
         float org[3], d[16][3];
-        double o[3];
-        shapes_point(&r, 1.5, o);
-        shapes_put(shapes_places[1], o, org);
+        shapes_put_point(&r, shapes_places[1], 1.5, org);
         rays_with_zeros(&r, i % 3 ? 0 : (unsigned)i % 7, d[0]);
         for (int j = 1; j < 16; j++)
             memcpy(d[j], d[0], sizeof d[j]);
@@ -124,9 +118,7 @@ static void a6__children_exchanged__same_hits(void **state)
         bundle b = bundle_create(kernels[0], tree, 0);
         for (int k = 0; k < 30; k++) {
             float org[3], d[16][3];
-            double o[3];
-            shapes_point(&r, 8, o);
-            shapes_put(shapes_places[1], o, org);
+            shapes_put_point(&r, shapes_places[1], 8, org);
             rays_wild(&r, d);
             bundle_rays(&b, org, d, 0xffff);
             bundle_trace(&b);
@@ -155,10 +147,8 @@ static void x12__inactive_lanes_hold_garbage__active_ones_unchanged(void **state
     (void)state;
     for (int i = 0; i < 600; i++) {
         float org[3], d[16][3], spoilt[16][3];
-        double o[3];
         unsigned mask = (unsigned)base_random_bits(&r) & 0xffff, turn = (unsigned)base_random_bits(&r) % 16;
-        shapes_point(&r, 1.5, o);
-        shapes_put(shapes_places[1], o, org);
+        shapes_put_point(&r, shapes_places[1], 1.5, org);
         rays_wild(&r, d);
         if (i & 1) /* one sign on all axes, the common path */
             for (int j = 0; j < 16; j++)
@@ -203,12 +193,10 @@ static void x12__inactive_frusta_hold_garbage__active_ones_unchanged(void **stat
     (void)state;
     for (int i = 0; i < 200; i++) {
         float org[3], first[3], right[3], down[3];
-        double o[3];
         unsigned columns = 1 + (unsigned)i % 3, mask = 0;
         for (unsigned f = 0; f < 16; f++)
             mask |= ((f & 3) < columns ? 1u : 0u) << f;
-        shapes_point(&r, 1.5, o);
-        shapes_put(shapes_places[1], o, org);
+        shapes_put_point(&r, shapes_places[1], 1.5, org);
         rays_grid(&r, 0.7, i % 8, first, right, down);
         bundle_grid(&b, org, first, right, down, mask);
         kernel_counts n = bundle_trace(&b);
@@ -242,10 +230,8 @@ static void x11__rays_with_nan__miss(void **state)
     (void)state;
     for (int i = 0; i < 600; i++) {
         float org[3], d[16][3];
-        double o[3];
         unsigned bad = (unsigned)base_random_bits(&r) % 16;
-        shapes_point(&r, 1.5, o);
-        shapes_put(shapes_places[1], o, org);
+        shapes_put_point(&r, shapes_places[1], 1.5, org);
         rays_wild(&r, d);
         bundle_rays(&b, org, d, 0xffff);
         bundle_trace(&b);

@@ -39,9 +39,7 @@ static void aim_at_vertex(base_random *r, const shapes_mesh *m, double point[3])
 
 static void inner_point(base_random *r, shapes_place place, float org[3])
 {
-    double p[3];
-    shapes_point(r, 0.2, p);
-    shapes_put(place, p, org);
+    shapes_put_point(r, place, 0.2, org);
 }
 
 /* A missed ray must at least be one that only rounding can miss: it passes a triangle's edges by a few units. */

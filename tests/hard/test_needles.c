@@ -73,15 +73,13 @@ static void x6__needles_and_slivers__hits_exact_but_for_four_units(void **state)
         shapes_place place = shapes_places[i % 3]; /* a needle this thin exists near the origin of space only */
         scene_triangle t = needle(&r, place, sizes[i % 6][0], sizes[i % 6][1]);
         float org[3], d[16][3];
-        double o[3];
         if (i % 6 >= 3) /* tiny: about the very origin, where floats are dense */
             for (int v = 0; v < 3; v++)
                 for (int k = 0; k < 3; k++)
                     t.v[v][k] -= t.v[0][k] * (v > 0);
         if (i % 6 >= 3)
             memset(t.v[0], 0, sizeof t.v[0]);
-        shapes_point(&r, 1, o);
-        shapes_put(place, o, org);
+        shapes_put_point(&r, place, 1, org);
         for (int j = 0; j < 16; j++) {
             double p[3], a = base_random_range(&r, -0.2, 1.2), c = base_random_range(&r, -0.2, 1.2);
             if (j < 6) { /* on the lines of edges, also beyond their ends */

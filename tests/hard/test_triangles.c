@@ -35,13 +35,11 @@ static void x7__duplicates_and_opposites__smallest_id(void **state)
         shapes_place place = shapes_places[i % 6];
         unsigned opposite = (unsigned)base_random_bits(&r);
         float org[3], d[16][3];
-        double p[3], o[3];
+        double p[3];
         for (int v = 0; v < 3; v++) {
-            shapes_point(&r, 1, p);
-            shapes_put(shapes_place_is_fine(place) ? place : shapes_places[1], p, t.v[v]);
+            shapes_put_point(&r, shapes_place_is_fine(place) ? place : shapes_places[1], 1, t.v[v]);
         }
-        shapes_point(&r, 2, o);
-        shapes_put(shapes_place_is_fine(place) ? place : shapes_places[1], o, org);
+        shapes_put_point(&r, shapes_place_is_fine(place) ? place : shapes_places[1], 2, org);
         for (int n = 0; n < COPIES; n++)
             for (int v = 0; v < 3; v++)
                 memcpy(copies[n].v[v], t.v[opposite >> n & 1 ? (3 - v) % 3 : v], sizeof t.v[v]);
@@ -98,8 +96,7 @@ static void x8__camera_on_a_vertex__triangle_not_hit(void **state)
         float d[16][3];
         double p[3];
         for (int v = 0; v < 3; v++) {
-            shapes_point(&r, 1, p);
-            shapes_put(shapes_places[i % SHAPES_PLACES], p, t.v[v]);
+            shapes_put_point(&r, shapes_places[i % SHAPES_PLACES], 1, t.v[v]);
         }
         for (int j = 0; j < 16; j++) {
             shapes_direction(&r, p);
