@@ -68,8 +68,8 @@ LRB_INLINE lrb_v16f triangle16_plane(lrb_ctx *c, lrb_v16f a, lrb_v16f zero, bool
  * @param cull     1: stop if the triangle shows its back, or its edge, to the origin
  * @param edges    out: the edge planes as stored
  *
- * Returns false if it was culled. One test for all rays: with a common origin the facing is theirs as well
- *.
+ * Returns false if it was culled. One test for all rays: with a common origin the facing is
+ * theirs as well.
  */
 LRB_INLINE bool triangle16_setup(lrb_ctx *c, lrb_ptr scratch, lrb_v16f origin, lrb_ptr record, bool cull, lrb_v16f *edges)
 {
