@@ -318,7 +318,6 @@ static void bvh__real_scenes__tree_is_sound(void **state)
 {
     static const char *const files[] = {"teapot.glb", "bart_museum_10k.glb", "fern_patch_213k.glb"};
     const char *folder = getenv("LANETRACE_SCENES");
-    size_t checked = 0;
     (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         char path[1024];
@@ -326,12 +325,16 @@ static void bvh__real_scenes__tree_is_sound(void **state)
         base_error err = {0};
         snprintf(path, sizeof path, "%s/%s", folder ? folder : ".", files[i]);
         FILE *file = fopen(path, "rb");
-        if (!file)
+        if (!file) { /* said of each file; cmocka's skip() would print "not ok" */
+            print_message("# skipped: %s is not there\n", files[i]);
             continue;
+        }
         fclose(file);
         base_status status = scene_open(path, &s, &err);
-        if (status == BASE_ERR_UNSUPPORTED)
+        if (status == BASE_ERR_UNSUPPORTED) {
+            print_message("# skipped: %s: %s\n", files[i], err.why);
             continue;
+        }
         if (status != BASE_OK)
             fail_msg("%s: %s", err.what, err.why);
         bvh_options options = bvh_options_default();
@@ -340,10 +343,7 @@ static void bvh__real_scenes__tree_is_sound(void **state)
         bvh_check(s, tree, &options);
         bvh_destroy(&tree);
         scene_destroy(&s);
-        checked++;
     }
-    if (checked == 0) /* cmocka's skip() would print "not ok" */
-        print_message("# skipped: no scene files, or no loader\n");
 }
 
 int main(void)
