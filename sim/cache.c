@@ -3,31 +3,32 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NO_LINE_BYTE = 0xff }; /* fills the number of no line */
+#define NO_LINE UINT64_MAX
 
 struct sim_cache {
     unsigned ways, line_bits;
     uint64_t sets; /* a power of two */
-    uint64_t *lines; /* sets x ways, in each set the most recently used first; UINT64_MAX: none */
+    uint64_t *lines; /* sets x ways, in each set the most recently used first; NO_LINE: a free place */
 };
 
 base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_bytes, sim_cache **out, base_error *err)
 {
-    uint64_t set_bytes = (uint64_t)ways * line_bytes, sets = set_bytes ? size_bytes / set_bytes : 0;
-    if (line_bytes < 2 || line_bytes & (line_bytes - 1) || !sets || sets & (sets - 1) || sets * set_bytes != size_bytes)
+    if (line_bytes < 2 || line_bytes & (line_bytes - 1) || !sim_cache_fits(size_bytes, ways, line_bytes))
         return base_fail(err, BASE_ERR_USAGE, "cache", "%u bytes are no power of two of sets of %u lines of %u bytes", size_bytes,
                          ways, line_bytes);
+    size_t places = size_bytes / line_bytes;
     sim_cache *cache = calloc(1, sizeof *cache);
     if (cache)
-        cache->lines = malloc(sets * ways * sizeof *cache->lines);
+        cache->lines = malloc(places * sizeof *cache->lines);
     if (!cache || !cache->lines) {
         sim_cache_destroy(&cache);
         return base_fail(err, BASE_ERR_NOMEM, "cache", "out of memory");
     }
     cache->ways = ways;
     cache->line_bits = (unsigned)__builtin_ctz(line_bytes);
-    cache->sets = sets;
-    memset(cache->lines, NO_LINE_BYTE, sets * ways * sizeof *cache->lines);
+    cache->sets = places / ways;
+    for (size_t i = 0; i < places; i++)
+        cache->lines[i] = NO_LINE;
     *out = cache;
     return BASE_OK;
 }
@@ -50,14 +51,21 @@ static uint64_t *set_of(const sim_cache *cache, uint64_t line)
     return cache->lines + (line & (cache->sets - 1)) * cache->ways;
 }
 
+/* The place of a line in its set; `ways` if it is not there. */
+static unsigned place_of(const sim_cache *cache, const uint64_t *set, uint64_t line)
+{
+    unsigned place = 0;
+    while (place < cache->ways && set[place] != line)
+        place++;
+    return place;
+}
+
 bool sim_cache_touch(sim_cache *cache, uint64_t line)
 {
     uint64_t *set = set_of(cache, line);
-    unsigned way = 0;
-    while (way < cache->ways - 1 && set[way] != line)
-        way++;
-    bool hit = set[way] == line;
-    memmove(set + 1, set, way * sizeof *set); /* of a miss: all but the last, which goes */
+    unsigned place = place_of(cache, set, line);
+    bool hit = place < cache->ways;
+    memmove(set + 1, set, (hit ? place : cache->ways - 1) * sizeof *set); /* of a miss the last one goes */
     set[0] = line;
     return hit;
 }
@@ -65,10 +73,9 @@ bool sim_cache_touch(sim_cache *cache, uint64_t line)
 void sim_cache_evict(sim_cache *cache, uint64_t line)
 {
     uint64_t *set = set_of(cache, line);
-    for (unsigned way = 0; way < cache->ways; way++)
-        if (set[way] == line) {
-            memmove(set + way, set + way + 1, (cache->ways - 1 - way) * sizeof *set);
-            memset(&set[cache->ways - 1], NO_LINE_BYTE, sizeof *set);
-            return;
-        }
+    unsigned place = place_of(cache, set, line);
+    if (place == cache->ways)
+        return;
+    memmove(set + place, set + place + 1, (cache->ways - 1 - place) * sizeof *set);
+    set[cache->ways - 1] = NO_LINE;
 }

@@ -16,13 +16,19 @@ extern "C" {
 
 typedef struct sim_cache sim_cache;
 
+/** Whether so many bytes are a power-of-two number of sets of `ways` lines of line_bytes; entries of a table: lines of 1. */
+static inline bool sim_cache_fits(unsigned size_bytes, unsigned ways, unsigned line_bytes)
+{
+    uint64_t set_bytes = (uint64_t)ways * line_bytes, sets = set_bytes ? size_bytes / set_bytes : 0;
+    return sets && (sets & (sets - 1)) == 0 && sets * set_bytes == size_bytes;
+}
+
 /**
  * An empty cache of size_bytes / (ways * line_bytes) sets.
  *
- * @param size_bytes  a multiple of ways * line_bytes
  * @param line_bytes  a power of two, at least 2
  *
- * Errors: BASE_ERR_USAGE if the sets are none or no power of two; BASE_ERR_NOMEM.
+ * Errors: BASE_ERR_USAGE if sim_cache_fits says no; BASE_ERR_NOMEM.
  */
 base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_bytes, sim_cache **out, base_error *err);
 

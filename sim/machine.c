@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "lrbni/base/hash.h"
+#include "sim/cache.h"
 #include "sim/machine_fields.h"
 #include "sim/machine_values.h"
 
@@ -90,23 +91,16 @@ static bool is_power_of_two(unsigned n)
     return n != 0 && (n & (n - 1)) == 0;
 }
 
-/* Is the size a power-of-two number of sets of `ways` lines? */
-static bool fits_sets(unsigned size, unsigned ways, unsigned line)
-{
-    uint64_t set = (uint64_t)ways * line;
-    return size % set == 0 && is_power_of_two((unsigned)(size / set));
-}
-
 static size_t flaw_in_caches(const sim_machine *m, char why[SIM_MACHINE_TEXT_SIZE])
 {
     if (!is_power_of_two(m->l1.line_bytes))
         return flaw(why, SIM_FIELD_l1_line_bytes, "%u is not a power of two", m->l1.line_bytes);
     if (m->l2.line_bytes != m->l1.line_bytes)
         return flaw(why, SIM_FIELD_l2_line_bytes, "%u is not l1.line_bytes, %u", m->l2.line_bytes, m->l1.line_bytes);
-    if (!fits_sets(m->l1.size_bytes, m->l1.ways, m->l1.line_bytes))
+    if (!sim_cache_fits(m->l1.size_bytes, m->l1.ways, m->l1.line_bytes))
         return flaw(why, SIM_FIELD_l1_size_bytes, "%u is not a power of two times l1.ways x l1.line_bytes, %u x %u",
                     m->l1.size_bytes, m->l1.ways, m->l1.line_bytes);
-    if (!fits_sets(m->l2.size_bytes, m->l2.ways, m->l2.line_bytes))
+    if (!sim_cache_fits(m->l2.size_bytes, m->l2.ways, m->l2.line_bytes))
         return flaw(why, SIM_FIELD_l2_size_bytes, "%u is not a power of two times l2.ways x l2.line_bytes, %u x %u",
                     m->l2.size_bytes, m->l2.ways, m->l2.line_bytes);
     if (m->l2.latency < m->l1.latency)
@@ -126,7 +120,7 @@ size_t sim_machine_flaw(const sim_machine *machine, char why[SIM_MACHINE_TEXT_SI
         if (number != SIM_FIELDS)
             return number;
     }
-    if (!fits_sets(machine->branch.btb_entries, machine->branch.btb_ways, 1))
+    if (!sim_cache_fits(machine->branch.btb_entries, machine->branch.btb_ways, 1))
         return flaw(why, SIM_FIELD_branch_btb_entries, "%u is not a power of two times branch.btb_ways, %u",
                     machine->branch.btb_entries, machine->branch.btb_ways);
     return flaw_in_caches(machine, why);
