@@ -188,7 +188,7 @@ int command_ops(int argc, char **argv)
         report_table_begin_row(t);
         report_table_add_text(t, op->id);
         report_table_add_text(t, op->mnemonic);
-        report_table_add_text(t, lrb_shape_names[op->shape]);
+        report_table_add_text(t, lrb_shape_table[op->shape].name);
         report_table_add_text(t, lrb_cost_classes[op->class_id].name);
         report_table_add_text(t, op->formula);
         report_table_add_text(t, lrb_chips_names[op->chips]);

@@ -18,6 +18,7 @@ base_status lrb_ctx_create(lrb_event_sink *sink, void *user, lrb_ctx **out, base
         lrb_ctx_destroy(&c);
         return base_fail(err, BASE_ERR_NOMEM, "kernel context", "out of memory");
     }
+    c->events_end = c->events + LRB_BATCH;
     memset(c->scratch.host, 0, LRB_SCRATCH_BYTES);
     lrb_ctx_begin(c);
     *out = c;
@@ -38,7 +39,6 @@ void lrb_ctx_begin(lrb_ctx *c)
 {
     c->next_event = LRB_FAR;
     c->free_event = c->events;
-    c->events_end = c->events + LRB_BATCH;
 }
 
 void lrb_ctx_flush(lrb_ctx *c)

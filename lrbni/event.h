@@ -1,9 +1,10 @@
 /* One event: what an op tells the simulator. 16 bytes.
  *
  * An event names the events that made its operands as distances back in the stream of its tile, so a stream can be
- * cut, stored and timed without renaming. Distances count ops; markers make nothing and are not counted. 0 stands for 'ready long ago': no such operand, or made at least
- * LRB_FAR ops ago, which no latency outlasts. Four sources, not three: a masked multiply-add reads its
- * destination, two operands and a mask. Where a source is an address it says so by the op's shape or form.
+ * cut, stored and timed without renaming. Distances count ops; markers make nothing and are not counted. 0 stands for
+ * 'ready long ago': no such operand, or made at least LRB_FAR ops ago, which no latency outlasts. Four sources, not three:
+ * a masked multiply-add reads its destination, two operands and a mask. Where a source is an address it says so by the
+ * op's shape or form.
  */
 #ifndef LRBNI_EVENT_H
 #define LRBNI_EVENT_H
@@ -22,10 +23,11 @@
 
 typedef struct lrb_event {
     uint16_t op;     /* id and form */
-    uint16_t mask;   /* lanes written, 0xffff if unmasked; of a branch: 1 if taken */
+    uint16_t mask;   /* 32-bit words of the vector that are written, 0xffff if unmasked: two a lane of an 8-wide op; of a
+                        branch: 1 if taken */
     uint16_t src[4]; /* 0: first source or address base; 1: S3, second source, or address index; 2: mask; 3: old
                         destination or stored data */
-    uint32_t aux;    /* memory: simulated address; branch: site; marker: its number; otherwise 0 */
+    uint32_t aux;    /* memory: simulated address; delay: its cycles; branch: site; marker: its number; otherwise 0 */
 } lrb_event;
 
 /* Receives a tile's events in order, in batches; `events` is valid during the call only. */

@@ -12,8 +12,8 @@ const lrb_op_info lrb_op_table[LRB_OP_COUNT] = {
 #include "lrbni/ops.def"
 };
 
-const char *const lrb_shape_names[LRB_SHAPE_COUNT] = {
-#define SHAPE(name, sentence) #name, /* "V_VV", */
+const lrb_shape_info lrb_shape_table[LRB_SHAPE_COUNT] = {
+#define SHAPE(name, access, reads, sentence) {#name, LRB_ACCESS_##access, reads, sentence}, /* {"V_M", LRB_ACCESS_LOAD, "aapp", "16 ..."}, */
 #include "lrbni/shapes.def"
 };
 
@@ -29,8 +29,12 @@ lrb_op_kind lrb_op_kind_of(lrb_op_id id)
     case LRB_CLASS_vector_permute:
     case LRB_CLASS_vector_convert:
     case LRB_CLASS_vector_lookup:
+    case LRB_CLASS_vector_transcendental:
     case LRB_CLASS_vector_load:
+    case LRB_CLASS_vector_load_convert:
     case LRB_CLASS_vector_store:
+    case LRB_CLASS_vector_gather:
+    case LRB_CLASS_vector_scatter:
         return LRB_KIND_VECTOR;
     case LRB_CLASS_mask_alu:
     case LRB_CLASS_mask_move:
@@ -43,19 +47,15 @@ lrb_op_kind lrb_op_kind_of(lrb_op_id id)
     }
 }
 
+lrb_access lrb_op_access_of(lrb_op_id id)
+{
+    return lrb_shape_table[lrb_op_table[id].shape].access;
+}
+
 int lrb_op_is_memory(lrb_op_id id)
 {
-    switch (lrb_op_table[id].shape) {
-    case LRB_SHAPE_V_M:
-    case LRB_SHAPE_VI_M:
-    case LRB_SHAPE_M_V:
-    case LRB_SHAPE_M_VI:
-    case LRB_SHAPE_R_M:
-    case LRB_SHAPE_M_R:
-        return 1;
-    default:
-        return 0;
-    }
+    lrb_access access = lrb_op_access_of(id);
+    return access == LRB_ACCESS_LOAD || access == LRB_ACCESS_STORE;
 }
 
 uint64_t lrb_op_table_hash(void)

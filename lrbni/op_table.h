@@ -14,7 +14,7 @@ typedef enum lrb_op_id {
 
 /* Which operands an op has (lrbni/shapes.def). */
 typedef enum lrb_shape {
-#define SHAPE(name, sentence) LRB_SHAPE_##name, /* LRB_SHAPE_V_VV, */
+#define SHAPE(name, access, reads, sentence) LRB_SHAPE_##name, /* LRB_SHAPE_V_VV, */
 #include "lrbni/shapes.def"
     LRB_SHAPE_COUNT
 } lrb_shape;
@@ -24,6 +24,22 @@ typedef enum lrb_round_rule { LRB_ROUND_EXACT, LRB_ROUND_RNE, LRB_ROUND_ASSUMED 
 
 /* Which chips have an op: the original Larrabee, Knights Corner, both, or only the published intrinsics. */
 typedef enum lrb_chips { LRB_CHIPS_NONE, LRB_CHIPS_L, LRB_CHIPS_K, LRB_CHIPS_LK, LRB_CHIPS_LIB, LRB_CHIPS_COUNT } lrb_chips;
+
+/* What an op does to memory at its event's address. */
+typedef enum lrb_access {
+    LRB_ACCESS_NONE,
+    LRB_ACCESS_LOAD,
+    LRB_ACCESS_STORE,
+    LRB_ACCESS_HINT /* nothing but a word to the caches: prefetch or evict, by the op */
+} lrb_access;
+
+/* What a shape says of its ops (lrbni/shapes.def). */
+typedef struct lrb_shape_info {
+    const char *name; /* "V_VV" */
+    lrb_access access;
+    const char *reads; /* four letters, one a source: p plain, e early, a address, b jump */
+    const char *sentence;
+} lrb_shape_info;
 
 typedef struct lrb_op_info {
     const char *id;       /* C name without the prefix; unique */
@@ -40,8 +56,8 @@ typedef struct lrb_op_info {
 /** Properties of every op, by id. */
 extern const lrb_op_info lrb_op_table[LRB_OP_COUNT];
 
-/** "V_VV" and so on. */
-extern const char *const lrb_shape_names[LRB_SHAPE_COUNT];
+/** What each shape says of its ops. */
+extern const lrb_shape_info lrb_shape_table[LRB_SHAPE_COUNT];
 
 /** "L", "K", "L K", "library", "". */
 extern const char *const lrb_chips_names[LRB_CHIPS_COUNT];
@@ -52,7 +68,10 @@ typedef enum lrb_op_kind { LRB_KIND_MARKER, LRB_KIND_VECTOR, LRB_KIND_MASK, LRB_
 /** Kind of an op: vector if it reads or writes a vector register. */
 lrb_op_kind lrb_op_kind_of(lrb_op_id id);
 
-/** Whether an op of this id always accesses memory (loads and stores; an S3 memory operand is told by the event). */
+/** What an op of this id does to memory whatever its form (an S3 memory operand is told by the event). */
+lrb_access lrb_op_access_of(lrb_op_id id);
+
+/** Whether an op of this id always reads or writes memory. */
 int lrb_op_is_memory(lrb_op_id id);
 
 /** Hash of the whole table: which instruction set a recording or a baseline was made with. */

@@ -83,30 +83,25 @@ struct sim_issue {
     sim_issue_stats stats;
 };
 
+static sim_consumer consumer_of(char read)
+{
+    switch (read) {
+    case 'e':
+        return SIM_CONSUMER_SHUFFLE;
+    case 'a':
+        return SIM_CONSUMER_ADDRESS;
+    case 'b':
+        return SIM_CONSUMER_BRANCH;
+    default:
+        return SIM_CONSUMER_PLAIN;
+    }
+}
+
 static void consumers_of(lrb_op_id id, unsigned form, uint8_t consumer[MAX_SOURCES])
 {
-    memset(consumer, SIM_CONSUMER_PLAIN, MAX_SOURCES);
-    switch (lrb_op_table[id].shape) {
-    case LRB_SHAPE_M_V:
-    case LRB_SHAPE_M_VI:
-        consumer[3] = SIM_CONSUMER_SHUFFLE; /* stored data is read early */
-        consumer[0] = consumer[1] = SIM_CONSUMER_ADDRESS;
-        break;
-    case LRB_SHAPE_V_M:
-    case LRB_SHAPE_VI_M:
-    case LRB_SHAPE_R_M:
-    case LRB_SHAPE_M_R:
-        consumer[0] = consumer[1] = SIM_CONSUMER_ADDRESS;
-        break;
-    case LRB_SHAPE_V_VII:
-        consumer[0] = SIM_CONSUMER_SHUFFLE;
-        break;
-    case LRB_SHAPE_B_F:
-        consumer[0] = SIM_CONSUMER_BRANCH;
-        break;
-    default:
-        break;
-    }
+    const char *reads = lrb_shape_table[lrb_op_table[id].shape].reads;
+    for (unsigned i = 0; i < MAX_SOURCES; i++)
+        consumer[i] = (uint8_t)consumer_of(reads[i]);
     if (form & LRB_FORM_MEMORY)
         consumer[1] = SIM_CONSUMER_ADDRESS;
     else if (form & LRB_FORM_SWIZZLE)
@@ -143,8 +138,8 @@ static void price_op(sim_issue *s, lrb_op_id id, unsigned form)
     const sim_class_cost *cost = &s->machine->cost[k];
     uint32_t latency[SIM_CONSUMERS];
     bool is_vector = lrb_op_kind_of(id) == LRB_KIND_VECTOR;
-    bool is_store = shape == LRB_SHAPE_M_V || shape == LRB_SHAPE_M_VI || shape == LRB_SHAPE_M_R;
-    bool reads_memory = (lrb_op_is_memory(id) && !is_store) || form & LRB_FORM_MEMORY;
+    bool is_store = lrb_op_access_of(id) == LRB_ACCESS_STORE;
+    bool reads_memory = lrb_op_access_of(id) == LRB_ACCESS_LOAD || form & LRB_FORM_MEMORY;
     latencies_of(cost, latency);
     for (unsigned kind = 0; kind < SIM_CONSUMERS; kind++)
         p->latency.ready[kind] = blame(latency[kind], BUCKET_OPERAND + k * SIM_CONSUMERS + kind);

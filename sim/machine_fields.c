@@ -14,7 +14,8 @@
 #define ALL_CLASSES (((UINT32_C(1) << LRB_CLASS_COUNT) - 1) & ~BIT(marker))
 #define FLAG_WRITERS (BIT(scalar_compare) | BIT(mask_test))
 #define VECTOR_WRITERS                                                                                                 \
-    (BIT(vector_alu) | BIT(vector_permute) | BIT(vector_convert) | BIT(vector_lookup) | BIT(vector_load))
+    (BIT(vector_alu) | BIT(vector_permute) | BIT(vector_convert) | BIT(vector_lookup) |                              \
+     BIT(vector_transcendental) | BIT(vector_load) | BIT(vector_load_convert) | BIT(vector_gather))
 #define REGISTER_WRITERS                                                                                               \
     (BIT(scalar_alu) | BIT(scalar_shift) | BIT(scalar_multiply) | BIT(scalar_bit) | BIT(scalar_load) | BIT(mask_move))
 

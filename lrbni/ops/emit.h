@@ -71,9 +71,9 @@ LRB_INLINE uint32_t lrb_emit_masked(lrb_ctx *c, unsigned op, unsigned form, lrb_
     return lrb_emit(c, op, form, k.bits, s0, s1, LRB_FROM(k), s3, aux);
 }
 
-/* Events are written as two little-endian words: the layout of lrb_event on the hosts there are. */
+/* Hashes of streams, which are to be equal everywhere, go over the bytes of events: the layout on the hosts there are. */
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
-#error "lrbni/ops/emit.h writes events on little-endian hosts only"
+#error "events are known on little-endian hosts only"
 #endif
 _Static_assert(sizeof(lrb_event) == 16, "an event is 16 bytes");
 

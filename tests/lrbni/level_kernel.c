@@ -48,6 +48,11 @@ void AT_LEVEL(level_kernel_, LRB_LEVEL)(lrb_ctx *c, lrb_segment data)
     for (;;) {
         lrb_ptr p = lrb_lea(c, base, lrb_shl(c, at, 3), 8, 0);
         lrb_region(c, (uint32_t)at.value);
+        lrb_prefetch1(c, lrb_at(p, 64));
+        lrb_prefetch2(c, lrb_at(p, 128));
+        lrb_evict1(c, lrb_at(p, 0));
+        lrb_evict2(c, lrb_at(p, 0));
+        lrb_delay(c, left);
         lrb_v16f v = lrb_load_ps(c, lrb_at(p, 0));
         lrb_k16 closer = lrb_cmplt_ps(c, v, nearest);
         lrb_v16f w = weigh(c, v, nearest, p, &closer);

@@ -194,3 +194,9 @@ bool ref_jcc(ref_flags flags, ref_condition condition)
 bool ref_jmp(void) { return true; }
 uint32_t ref_phase(uint32_t number) { return number; }
 uint32_t ref_region(uint32_t number) { return number; }
+
+uint32_t ref_prefetch1(uint32_t address) { return address; }
+uint32_t ref_prefetch2(uint32_t address) { return address; }
+uint32_t ref_evict1(uint32_t address) { return address; }
+uint32_t ref_evict2(uint32_t address) { return address; }
+uint32_t ref_delay(uint64_t a) { return (uint32_t)(a % 4294967296u); }

@@ -52,6 +52,9 @@ typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_
 /* Whether the jump is taken; the aux of a marker's event. */
 #define REF_B_F(id) bool ref_##id(ref_flags flags, ref_condition condition);
 #define REF_B(id) bool ref_##id(void);
+/* The aux of a hint's event. */
+#define REF_H_M(id) uint32_t ref_##id(uint32_t address);
+#define REF_H_R(id) uint32_t ref_##id(uint64_t a);
 #define REF_MARK(id) uint32_t ref_##id(uint32_t number);
 
 #define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) REF_##shape(id) /* uint32_t ref_add_ps(...); */

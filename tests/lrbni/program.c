@@ -112,6 +112,8 @@ static lrb_s3i s3_pi(const machine *m, lrb_v16i b)
 #define STEP_B_F(id) \
     if (m->code[2] & 1 ? lrb_jl(c, m->flags) : lrb_jz(c, m->flags)) m->skip = 1;
 #define STEP_B(id) lrb_##id(c);
+#define STEP_H_M(id) lrb_##id(c, place(m, 1, 1));
+#define STEP_H_R(id) lrb_##id(c, RA);
 #define STEP_MARK(id) lrb_##id(c, m->code[2]);
 
 static void step(machine *m)

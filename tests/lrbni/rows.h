@@ -81,6 +81,12 @@
 #ifndef ROW_B
 #define ROW_B(id)
 #endif
+#ifndef ROW_H_M
+#define ROW_H_M(id)
+#endif
+#ifndef ROW_H_R
+#define ROW_H_R(id)
+#endif
 #ifndef ROW_MARK
 #define ROW_MARK(id)
 #endif

@@ -33,7 +33,7 @@ static void rows__text__of_the_same_id(void **state)
 #define OP(id_, mnemonic_, shape_, class, mask_, round_, chips_, source_, formula_)       \
     assert_string_equal(lrb_op_table[LRB_OP_##id_].id, #id_);                             \
     assert_string_equal(lrb_op_table[LRB_OP_##id_].mnemonic, mnemonic_);                  \
-    assert_string_equal(lrb_shape_names[lrb_op_table[LRB_OP_##id_].shape], #shape_);      \
+    assert_string_equal(lrb_shape_table[lrb_op_table[LRB_OP_##id_].shape].name, #shape_);      \
     assert_string_equal(lrb_cost_classes[lrb_op_table[LRB_OP_##id_].class_id].name, #class); \
     assert_true(lrb_op_table[LRB_OP_##id_].mask == LRB_MASK_##mask_);                     \
     assert_true(lrb_op_table[LRB_OP_##id_].round == LRB_ROUND_##round_);                  \
@@ -68,13 +68,15 @@ static void shapes__all__named_once_and_used(void **state)
     (void)state;
     for (int i = 0; i < LRB_SHAPE_COUNT; i++) {
         int used = 0;
-        assert_non_null(lrb_shape_names[i]);
+        assert_non_null(lrb_shape_table[i].name);
+        assert_int_equal(strspn(lrb_shape_table[i].reads, "peab"), 4);
+        assert_int_equal(strlen(lrb_shape_table[i].reads), 4);
         for (int j = 0; j < i; j++)
-            assert_string_not_equal(lrb_shape_names[i], lrb_shape_names[j]);
+            assert_string_not_equal(lrb_shape_table[i].name, lrb_shape_table[j].name);
         for (int j = 0; j < LRB_OP_COUNT; j++)
             used += (int)lrb_op_table[j].shape == i;
         if (!used)
-            fail_msg("no op has the shape %s", lrb_shape_names[i]);
+            fail_msg("no op has the shape %s", lrb_shape_table[i].name);
     }
 }
 
@@ -89,7 +91,7 @@ static void shapes__operands__agree_with_kind_and_mask(void **state)
 {
     (void)state;
     for (int i = 0; i < LRB_OP_COUNT; i++) {
-        const char *shape = lrb_shape_names[lrb_op_table[i].shape];
+        const char *shape = lrb_shape_table[lrb_op_table[i].shape].name;
         lrb_op_kind kind = lrb_op_kind_of((lrb_op_id)i), expected = LRB_KIND_SCALAR;
         lrb_mask_rule rule = LRB_MASK_NONE;
         if (strcmp(shape, "MARK") == 0)
@@ -102,9 +104,24 @@ static void shapes__operands__agree_with_kind_and_mask(void **state)
             expected = LRB_KIND_MASK;
         if (has(shape, 'V'))
             rule = shape[0] == 'V' ? LRB_MASK_MERGE : shape[0] == 'K' ? LRB_MASK_ZERO : LRB_MASK_SELECT;
-        if (kind != expected || lrb_op_table[i].mask != rule || lrb_op_is_memory((lrb_op_id)i) != has(shape, 'M'))
+        if (kind != expected || lrb_op_table[i].mask != rule || lrb_op_is_memory((lrb_op_id)i) != (has(shape, 'M') && shape[0] != 'H'))
             fail_msg("%s of shape %s: kind %d, mask rule %d, memory %d", lrb_op_table[i].id, shape, kind, lrb_op_table[i].mask,
                      lrb_op_is_memory((lrb_op_id)i));
+    }
+}
+
+/* What a shape does to memory follows from its letters, and what is an address or stored data from that. */
+static void shapes__operands__agree_with_access_and_reads(void **state)
+{
+    (void)state;
+    for (int i = 0; i < LRB_SHAPE_COUNT; i++) {
+        const lrb_shape_info *shape = &lrb_shape_table[i];
+        lrb_access expected = !has(shape->name, 'M') ? LRB_ACCESS_NONE
+                              : shape->name[0] == 'M' ? LRB_ACCESS_STORE
+                              : shape->name[0] == 'H' ? LRB_ACCESS_HINT
+                                                      : LRB_ACCESS_LOAD;
+        if (shape->access != expected || (memcmp(shape->reads, "aa", 2) == 0) != (expected != LRB_ACCESS_NONE))
+            fail_msg("shape %s: access %d, reads %s", shape->name, shape->access, shape->reads);
     }
 }
 
@@ -125,6 +142,7 @@ int main(void)
         cmocka_unit_test(rows__mnemonic_and_shape__unique),
         cmocka_unit_test(shapes__all__named_once_and_used),
         cmocka_unit_test(shapes__operands__agree_with_kind_and_mask),
+        cmocka_unit_test(shapes__operands__agree_with_access_and_reads),
         cmocka_unit_test(hash__twice__same_and_not_empty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -78,7 +78,7 @@ static bool is_marker(const lrb_event *e)
 /* How an event reads its source i: event.h says which source is what. */
 static sim_consumer consumer_of(const lrb_event *e, int i)
 {
-    bool is_address = (is_load(e) || is_store(e)) ? i == 0 || i == 1 : (e->op & LRB_FORM_MEMORY) && i == 1;
+    bool is_address = (is_load(e) || is_store(e) || info_of(e)->shape == LRB_SHAPE_H_M) ? i == 0 || i == 1 : (e->op & LRB_FORM_MEMORY) && i == 1;
     if (is_address)
         return SIM_CONSUMER_ADDRESS;
     if ((e->op & LRB_FORM_SWIZZLE && i == 1) || (is_vector_store(e) && i == 3) ||

@@ -41,20 +41,26 @@ static __attribute__((cold, noinline, unused)) void lanes_nan_rule3(lrb_f32x16 *
         r->f[i] = lrb_nan_rule3(r->f[i], a->f[i], b->f[i], c->f[i]);
 }
 
-/* LANES_F2(add, a.f[i] + b.f[i]): r.f[i] = a.f[i] + b.f[i] for every lane */
-#define LANES_F2(name, expression)                                             \
+/* LANES_F2(add, a.f[i] + b.f[i], lanes_nan_rule2(...)): r.f[i] = a.f[i] + b.f[i] for every lane; a NaN by the rule, if one is named */
+#define LANES_F2(name, expression, nan_rule)                                   \
     static inline lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b)     \
     {                                                                          \
         lrb_f32x16 r;                                                          \
         for (int i = 0; i < 16; i++)                                           \
             r.f[i] = expression;                                               \
-        if (lanes_any_nan(r))                                                  \
-            lanes_nan_rule2(&r, &a, &b);                                       \
+        nan_rule;                                                              \
         return r;                                                              \
     }
-LANES_F2(add, a.f[i] + b.f[i])
-LANES_F2(sub, a.f[i] - b.f[i])
-LANES_F2(mul, a.f[i] * b.f[i])
+#define LANES_NAN_RULE2         \
+    if (lanes_any_nan(r))       \
+    lanes_nan_rule2(&r, &a, &b)
+LANES_F2(add, a.f[i] + b.f[i], LANES_NAN_RULE2)
+LANES_F2(sub, a.f[i] - b.f[i], LANES_NAN_RULE2)
+LANES_F2(mul, a.f[i] * b.f[i], LANES_NAN_RULE2)
+/* min and max return the second source if either is a NaN or both are zero (ICC16, non-g variants). */
+LANES_F2(min, a.f[i] < b.f[i] ? a.f[i] : b.f[i], )
+LANES_F2(max, a.f[i] > b.f[i] ? a.f[i] : b.f[i], )
+#undef LANES_NAN_RULE2
 #undef LANES_F2
 
 /* LANES_F3(fmadd, fmaf(a.f[i], b.f[i], c.f[i])): the same for three sources */
@@ -72,23 +78,6 @@ LANES_F3(fmadd, fmaf(a.f[i], b.f[i], c.f[i]))
 LANES_F3(fmsub, fmaf(a.f[i], b.f[i], -c.f[i]))
 LANES_F3(fnmadd, fmaf(-a.f[i], b.f[i], c.f[i]))
 #undef LANES_F3
-
-/* min and max return the second source if either is a NaN or both are zero (ICC16, non-g variants). */
-static inline lrb_f32x16 lanes_min_ps(lrb_f32x16 a, lrb_f32x16 b)
-{
-    lrb_f32x16 r;
-    for (int i = 0; i < 16; i++)
-        r.f[i] = a.f[i] < b.f[i] ? a.f[i] : b.f[i];
-    return r;
-}
-
-static inline lrb_f32x16 lanes_max_ps(lrb_f32x16 a, lrb_f32x16 b)
-{
-    lrb_f32x16 r;
-    for (int i = 0; i < 16; i++)
-        r.f[i] = a.f[i] > b.f[i] ? a.f[i] : b.f[i];
-    return r;
-}
 
 static inline lrb_f32x16 lanes_rcpres_ps(lrb_f32x16 a)
 {
@@ -114,7 +103,8 @@ LANES_I2(or, |)
 LANES_I2(xor, ^)
 #undef LANES_I2
 
-static const uint32_t lanes_bit[16] = {1, 2, 4, 8, 0x10, 0x20, 0x40, 0x80, 0x100, 0x200, 0x400, 0x800, 0x1000, 0x2000, 0x4000, 0x8000};
+static const uint32_t lanes_bit[16] = {0x0001, 0x0002, 0x0004, 0x0008, 0x0010, 0x0020, 0x0040, 0x0080,
+                                       0x0100, 0x0200, 0x0400, 0x0800, 0x1000, 0x2000, 0x4000, 0x8000};
 
 /* LANES_CMP(cmplt_ps, f32, a.f[i] < b.f[i]): bit i of the result */
 #define LANES_CMP(name, type, condition)                                       \
