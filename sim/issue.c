@@ -104,7 +104,7 @@ static void consumers_of(lrb_op_id id, unsigned form, uint8_t consumer[MAX_SOURC
         consumer[i] = (uint8_t)consumer_of(reads[i]);
     if (form & LRB_FORM_MEMORY)
         consumer[1] = SIM_CONSUMER_ADDRESS;
-    else if (form & LRB_FORM_SWIZZLE)
+    else if (form & LRB_FORM_SWIZZLE && lrb_op_access_of(id) == LRB_ACCESS_NONE)
         consumer[1] = SIM_CONSUMER_SHUFFLE;
 }
 
@@ -146,7 +146,7 @@ static void price_op(sim_issue *s, lrb_op_id id, unsigned form)
     consumers_of(id, form, p->consumer);
     p->class_id = (uint8_t)k;
     p->partners = partners_of(s->machine, k);
-    p->words = form & LRB_FORM_4TO16 ? 0xf : form & LRB_FORM_CONVERT || !is_vector ? 1 : 0;
+    p->words = is_vector ? (1u << lrb_form_bytes(form) / 4) - 1 : 1;
     p->lanes = is_vector ? 0xffff : 0;
     p->flags = (uint8_t)((shape == LRB_SHAPE_MARK ? PRICE_MARKER : 0) | (reads_memory ? PRICE_READS : 0) |
                          (is_store ? PRICE_STORE : 0) | (cost->throughput > 2 || cost->blocking ? PRICE_LASTING : 0));
