@@ -9,7 +9,7 @@ import re
 import subprocess
 import sys
 
-FOLDERS = ("lrbni", "scene", "kernels", "sim", "traces", "reports", "cli", "tests")
+FOLDERS = ("lrbni", "scene", "kernels", "sim", "traces", "reports", "lanetrace", "cli", "tests")
 
 # Public to C++: the headers that C++ code of this project or of its users includes.
 CPP = re.compile(r"(scene/[^/]+|sim/machine|reports/[^/]+|lrbni/base/[^/]+)\.h$")
