@@ -25,7 +25,7 @@ FRAGMENTS = {
 FLAGS = [
     (re.compile(r"lrbni/host/avx2/"), ["-mavx2", "-mfma"]),
     (re.compile(r"lrbni/host/avx512/"), ["-mavx512f", "-mavx2", "-mfma"]),
-    (re.compile(r"(lrbni|kernels|tests)/"), ["-DLRB_LEVEL=2", "-DLRB_SOURCE=1"]),
+    (re.compile(r"(lrbni|kernels|lanetrace|tests)/"), ["-DLRB_LEVEL=2", "-DLRB_SOURCE=1"]),
     (re.compile(r"tests/sim/"), ['-DMACHINE_INI="larrabee.ini"']),
 ]
 STRICT = ["-fsyntax-only", "-Wall", "-Wextra", "-Wno-unused-function", "-Wno-unused-const-variable", "-Wno-psabi", "-Werror",
