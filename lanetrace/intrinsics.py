@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """From intrinsics.def: the header, the reference page, the names that the tests call.
 
-intrinsics.py header|names INTRINSICS_DEF OPS_DEF OUTPUT
+intrinsics.py header|markdown|names INTRINSICS_DEF OPS_DEF OUTPUT
 """
 
 import re
@@ -57,7 +57,7 @@ MASKS = {
     "MASK": [("", "unsigned a, unsigned b", "lrb_{0}({C}, first, lanetrace_k(b))")],
     "MASK1": [("", "unsigned a", "lrb_{0}({C}, first)")],
 }
-WRITTEN = {"WRITTEN": ["", "mask_"], "WRITTEN1": [""]}
+WRITTEN = re.compile(r"WRITTEN((?:/\d+){1,2})")
 
 
 def rows(path):
@@ -70,7 +70,7 @@ def rows(path):
                 continue
             if words[0] == "==":
                 family = " ".join(words[1:-1])
-            elif words[0] in VECTOR or words[0] in COMPARES or words[0] in MASKS or words[0] in WRITTEN:
+            elif words[0] in VECTOR | COMPARES | MASKS or WRITTEN.fullmatch(words[0]):
                 yield family, words[0], words[1], words[2:]
             else:
                 sys.exit(f"{path}:{number}: no form {words[0]}")
@@ -88,10 +88,11 @@ def public_name(name, prefix=""):
 
 
 def functions(form, name, ops):
-    """(public name, C source) of each function of a row; a function written by hand has no source here."""
-    if form in WRITTEN:
-        for prefix in WRITTEN[form]:
-            yield public_name(name, prefix), None
+    """(public name, number of operands, C source) of each function of a row; one that is written by hand has no source here."""
+    written = WRITTEN.fullmatch(form)
+    if written:
+        for prefix, operands in zip(("", "mask_"), written.group(1)[1:].split("/")):
+            yield public_name(name, prefix), int(operands), None
         return
     vector, mask, to_op, back = SUFFIXES.get(ops[0].rsplit("_", 1)[-1], ("", "__mmask16", "{}", "{}"))
     for prefix, parameters, call in (VECTOR | COMPARES | MASKS)[form]:
@@ -105,28 +106,103 @@ def functions(form, name, ops):
             result, body = mask, f"return ({mask})lanetrace_made({call});"
             if form in MASKS: # the masks are looked up before the result gets a place among them
                 body = "lrb_k16 first = lanetrace_k(a); " + body
-        yield public, f"static inline {result} lanetrace{public}({parameters}) {{ {body} }}"
+        yield public, parameters.count(",") + 1, f"static inline {result} lanetrace{public}({parameters}) {{ {body} }}"
+
+
+MOST_ORDERED = 7 # operands of the intrinsics whose operands may be ops
+
+
+def ordered_call(operands):
+    """The macro that calls a function with its operands evaluated from left to right; their names are new in every call."""
+    letters = "abcdefg"[:operands]
+    listed = ", ".join(letters)
+    values = " ".join(f"__auto_type lanetrace_{x}##n = ({x});" for x in letters)
+    call = ", ".join(f"lanetrace_{x}##n" for x in letters)
+    name = f"LANETRACE_CALL_{operands}"
+    return (f"#define {name}(op, {listed}) {name}_(__COUNTER__, op, {listed})\n"
+            f"#define {name}_(n, op, {listed}) {name}__(n, op, {listed})\n"
+            f"#define {name}__(n, op, {listed}) __extension__({{ {values} op({call}); }})")
+
+
+def takeover(public, operands):
+    """The macro that puts our function in the name's place."""
+    if not 2 <= operands <= MOST_ORDERED:
+        return f"#undef {public}\n#define {public} lanetrace{public}"
+    listed = ", ".join("abcdefg"[:operands])
+    return f"#undef {public}\n#define {public}({listed}) LANETRACE_CALL_{operands}(lanetrace{public}, {listed})"
 
 
 def header(table):
     lines, defines = [HEAD], []
     family_before = None
     for family, form, name, ops in table:
-        for public, source in functions(form, name, ops):
+        for public, operands, source in functions(form, name, ops):
             if source:
                 if family != family_before:
                     lines.append(f"\n/* {family} */")
                     family_before = family
                 lines.append(source)
-            defines += [f"#undef {public}", f"#define {public} lanetrace{public}"]
+            defines.append(takeover(public, operands))
+    lines.append("\n/* C leaves open in which order operands are evaluated, and the order of ops is the result: it is from left to right. */")
+    lines += [ordered_call(operands) for operands in range(2, MOST_ORDERED + 1)]
     lines.append("\n/* The names are taken over; vectors of the host are to be had before this header only. */")
     lines += ["#define __m512 lrb_v16f", "#define __m512i lrb_v16i", "#define __m512d lrb_v8d", *defines, "\n#endif"]
     return "\n".join(lines) + "\n"
 
 
+PAGE = """\
+# Intrinsics
+
+`lanetrace/lrbni_intrinsics.h` has {count} intrinsics in the style of the Larrabee prototype library and of the compiler for Knights
+Corner. They are made of ops, so code that is written with them compiles unchanged, in C with gcc or clang, and is counted and timed
+between `lanetrace_begin` and `lanetrace_end`; outside of those an intrinsic stops at an assertion. The [tutorial](tutorial.md) has
+an example. The header takes the place of `<immintrin.h>`, which it includes first:
+
+    cc -include lanetrace/lrbni_intrinsics.h kernel.c $(pkg-config --cflags --libs lanetrace)
+
+This page and the header are made from `lanetrace/intrinsics.def`. Names and operands: KNCNI, ICC16
+([bibliography.md](bibliography.md)).
+
+## What is accounted for
+
+- **The ops of the list below, and nothing else.** C's own work costs nothing: loops, addresses, integer and float arithmetic,
+  branches, operators on masks. A kernel whose scalar work matters is to be written with ops.
+- **Masks are plain integers**, so an op's mask operand does not say which op made it. It is found by value: the eight newest masks
+  that intrinsics have made in the piece of work are kept, as many as there are mask registers, and a mask operand is taken to be
+  the newest of those with the same bits. If none has them (a constant, the result of C's `&`) the mask was ready long ago. So a constant
+  with the bits of a recent mask seems to depend on it; `_mm512_kand` and its like keep what C's operators lose.
+- **Pointers** were ready long ago. An array given to `lanetrace_map` has its address on the simulated machine; any other memory gets
+  one line of 64 bytes after the other, in the order in which the piece of work first touches them. The last six bits of the host's
+  address remain, so align what you do not map.
+- **Constants** (`set1` and the like) are loads from a constant pool: the last line of the thread's scratch. Zero is an exclusive or of a
+  register with itself.
+- **A swizzle or broadcast is an op of its own.** A compiler would often make it part of the op that reads it.
+- **Operands are evaluated from left to right**, by macros, because C leaves the order open and the order of ops is the result. It is still
+  open between the operands of C's own operators: write `a = f(x); b = g(y);`, not `f(x) + g(y)`, if both are reductions.
+- **A fused multiply-add** under a mask is the form whose destination is the first operand; unmasked and `mask3`, the third.
+- **Reductions** are the sequence of Intel's compiler: halves, quarters, pairs, neighbours. The result leaves by way of memory.
+
+What does not work: `__m512` is a structure, larger than 64 bytes, so a pointer to it is no pointer to lanes (use loads and stores), it has
+no operators and no braces to initialise it; C++.
+
+"""
+
+
+def markdown(table):
+    lines = [PAGE.format(count=sum(1 for _, form, name, ops in table for _ in functions(form, name, ops)))]
+    family_before = None
+    for family, form, name, ops in table:
+        if family != family_before:
+            lines.append(f"\n## {family}\n\n| intrinsic | ops |\n|---|---|\n")
+            family_before = family
+        publics = ", ".join(f"`{public}`" for public, _, _ in functions(form, name, ops))
+        lines.append(f"| {publics} | {', '.join(f'`{op}`' for op in dict.fromkeys(ops)) or 'none'} |\n")
+    return "".join(lines)
+
+
 def names(table):
     """The public names as C strings, one a line."""
-    return "".join(f'"{public}",\n' for _, form, name, ops in table for public, _ in functions(form, name, ops))
+    return "".join(f'"{public}",\n' for _, form, name, ops in table for public, _, _ in functions(form, name, ops))
 
 
 def main():
@@ -134,7 +210,7 @@ def main():
     known = op_ids(ops_path)
     table = [row for row in rows(table_path) if all(op in known for op in row[3])]
     with open(output, "w", encoding="ascii") as file:
-        file.write({"header": header, "names": names}[mode](table))
+        file.write({"header": header, "markdown": markdown, "names": names}[mode](table))
 
 
 if __name__ == "__main__":

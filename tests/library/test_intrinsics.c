@@ -215,12 +215,30 @@ static void load__unmapped_memory__address_by_first_touch(void **state)
     lanetrace_close(&s);
 }
 
+/* C leaves the order of operands open; with the intrinsics it is from left to right. */
+static void operands__that_are_ops__from_left_to_right(void **state)
+{
+    (void)state;
+    static const unsigned expected[] = {LRB_OP_add_ps, LRB_OP_mul_ps, LRB_OP_cmplt_ps, LRB_OP_sub_ps, LRB_OP_sub_ps};
+    lanetrace_session *s;
+    lrb_ctx *c;
+    assert_int_equal(lanetrace_open(NULL, &s, NULL), BASE_OK);
+    assert_int_equal(lanetrace_begin(s, &c, NULL), BASE_OK);
+    __m512 a = _mm512_undefined_ps();
+    (void)_mm512_mask_sub_ps(_mm512_add_ps(a, a), _mm512_cmplt_ps_mask(_mm512_mul_ps(a, a), a), a, _mm512_sub_ps(a, a));
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        assert_int_equal(c->events[i].op, expected[i]);
+    assert_int_equal(lanetrace_end(s, NULL), BASE_OK);
+    lanetrace_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_intrinsic__against_its_ops__same_bits_and_events),
         cmocka_unit_test(every_intrinsic__of_the_list__is_called),
         cmocka_unit_test(mask__by_value__newest_of_the_last_eight),
+        cmocka_unit_test(operands__that_are_ops__from_left_to_right),
         cmocka_unit_test(load__unmapped_memory__address_by_first_touch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
