@@ -157,7 +157,7 @@ static void every_intrinsic__of_the_list__is_called(void **state)
 {
     (void)state;
     static const char *const names[] = {
-#include "intrinsic_names.h"
+#include <intrinsic_names.h> /* made from the list */
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         bool called = false;
