@@ -6,6 +6,7 @@
 #include "lrbni/ops/compare.h"
 #include "lrbni/ops/hints.h"
 #include "lrbni/ops/load_store.h"
+#include "lrbni/ops/move.h"
 #include "lrbni/ops/scalar.h"
 
 #endif

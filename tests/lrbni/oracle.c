@@ -52,6 +52,7 @@ bool ref_cmple_pi(uint32_t a, uint32_t b) { return signed32(a) - signed32(b) <= 
 /* Moves */
 uint32_t ref_mov_ps(uint32_t b) { return b; }
 uint32_t ref_mov_pi(uint32_t b) { return b; }
+uint64_t ref_mov_pd(uint64_t b) { return b; }
 
 int ref_shuf128x32_ps(int lane, unsigned blocks, unsigned words)
 {

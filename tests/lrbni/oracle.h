@@ -27,6 +27,7 @@ typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_
 #define REF_V_VV(id) uint32_t ref_##id(uint32_t a, uint32_t b);
 #define REF_VI_VV(id) uint32_t ref_##id(uint32_t a, uint32_t b);
 #define REF_V_VVV(id) uint32_t ref_##id(uint32_t d, uint32_t a, uint32_t b);
+#define REF_VD_V(id) uint64_t ref_##id(uint64_t b);
 #define REF_K_VV(id) bool ref_##id(uint32_t a, uint32_t b);
 #define REF_KI_VV(id) bool ref_##id(uint32_t a, uint32_t b);
 /* The lane of the source that lane `lane` takes; the word of memory that it takes; the lane that word `word` receives. */

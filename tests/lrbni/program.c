@@ -1,13 +1,10 @@
-/* Compiled with PROGRAM_RUN as the name of the entry, for one back end, at LRB_RECORD. */
-#include <string.h>
-
+/* Compiled with PROGRAM_RUN as the name of the entry, for one back end, at one level. */
 #include "tests/lrbni/program.h"
 
 #define LRB_SOURCE 1
-#include "lrbni/base/hash.h"
 #include "lrbni/lrbni.h"
 
-enum { STEP_BYTES = 8, MEMORY_ADDRESS = 0x10000 };
+enum { MEMORY_ADDRESS = 0x10000 };
 
 /* The registers with their origins, and one instruction: op, form, and operand numbers. */
 typedef struct machine {
@@ -32,6 +29,8 @@ typedef struct machine {
 #define AI lrb_castps_pi(A)
 #define BI lrb_castps_pi(B)
 #define DI lrb_castps_pi(D)
+#define BD lrb_castps_pd(B)
+#define DD lrb_castps_pd(D)
 #define RD m->r[REGISTER(2)]
 #define RA m->r[REGISTER(3)]
 #define RB m->r[REGISTER(4)]
@@ -46,42 +45,44 @@ static lrb_mem place(const machine *m, int32_t align, int32_t bytes)
     return lrb_at(m->memory, offset / align * align);
 }
 
-static lrb_s3f s3_ps(const machine *m, lrb_v16f b)
-{
-    switch (FORM) {
-    case 0: return lrb_full_ps(place(m, 64, 64));
-    case 1: return lrb_1to16_ps(place(m, 4, 4));
-    case 2: return lrb_4to16_ps(place(m, 16, 16));
-    case 3: return lrb_swizzle_ps(b, LRB_DCBA);
-    case 4: return lrb_swizzle_ps(b, LRB_CDAB);
-    case 5: return lrb_swizzle_ps(b, LRB_BADC);
-    case 6: return lrb_swizzle_ps(b, LRB_AAAA);
-    case 7: return lrb_swizzle_ps(b, LRB_BBBB);
-    case 8: return lrb_swizzle_ps(b, LRB_CCCC);
-    case 9: return lrb_swizzle_ps(b, LRB_DDDD);
-    case 10: return lrb_swizzle_ps(b, LRB_DACB);
-    default: return lrb_reg_ps(b);
+/* DEFINE_S3(ps, lrb_s3f, lrb_v16f, 1to16, 4, 4to16, 16): the last source in the form that the instruction asks for */
+#define DEFINE_S3(suffix, s3, vector, one, one_bytes, four, four_bytes)                                     \
+    static __attribute__((noinline)) s3 s3_##suffix(const machine *m, vector b)                             \
+    {                                                                                                       \
+        switch (FORM) {                                                                                     \
+        case 0: return lrb_full_##suffix(place(m, 64, 64));                                                 \
+        case 1: return lrb_##one##_##suffix(place(m, one_bytes, one_bytes));                                \
+        case 2: return lrb_##four##_##suffix(place(m, four_bytes, four_bytes));                             \
+        case 3: return lrb_swizzle_##suffix(b, LRB_DCBA);                                                   \
+        case 4: return lrb_swizzle_##suffix(b, LRB_CDAB);                                                   \
+        case 5: return lrb_swizzle_##suffix(b, LRB_BADC);                                                   \
+        case 6: return lrb_swizzle_##suffix(b, LRB_AAAA);                                                   \
+        case 7: return lrb_swizzle_##suffix(b, LRB_BBBB);                                                   \
+        case 8: return lrb_swizzle_##suffix(b, LRB_CCCC);                                                   \
+        case 9: return lrb_swizzle_##suffix(b, LRB_DDDD);                                                   \
+        case 10: return lrb_swizzle_##suffix(b, LRB_DACB);                                                  \
+        default: return lrb_reg_##suffix(b);                                                                \
+        }                                                                                                   \
     }
-}
+DEFINE_S3(ps, lrb_s3f, lrb_v16f, 1to16, 4, 4to16, 16)
+DEFINE_S3(pi, lrb_s3i, lrb_v16i, 1to16, 4, 4to16, 16)
+DEFINE_S3(pd, lrb_s3d, lrb_v8d, 1to8, 8, 4to8, 32)
+#define S3 s3_ps(m, B)
+#define S3I s3_pi(m, BI)
+#define S3D s3_pd(m, BD)
 
-static lrb_s3i s3_pi(const machine *m, lrb_v16i b)
-{
-    switch (FORM) {
-    case 0: return lrb_full_pi(place(m, 64, 64));
-    case 1: return lrb_1to16_pi(place(m, 4, 4));
-    case 2: return lrb_4to16_pi(place(m, 16, 16));
-    default: return lrb_reg_pi(b);
-    }
-}
-
-/* What an op of each shape does with the instruction's operands. */
-#define STEP_V_V(id) D = MASKED ? lrb_mask_##id##_s3(c, D, K, s3_ps(m, B)) : lrb_##id##_s3(c, s3_ps(m, B));
-#define STEP_V_VV(id) D = MASKED ? lrb_mask_##id##_s3(c, D, K, A, s3_ps(m, B)) : lrb_##id##_s3(c, A, s3_ps(m, B));
-#define STEP_V_VVV(id) D = MASKED ? lrb_mask_##id##_s3(c, D, K, A, s3_ps(m, B)) : lrb_##id##_s3(c, D, A, s3_ps(m, B));
-#define STEP_VI_V(id) \
-    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, s3_pi(m, BI)) : lrb_##id##_s3(c, s3_pi(m, BI)));
-#define STEP_VI_VV(id) \
-    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, AI, s3_pi(m, BI)) : lrb_##id##_s3(c, AI, s3_pi(m, BI)));
+/* What an op of each shape does with the instruction's operands. UNARY(mov_pi, lrb_castpi_ps, DI, S3I): the plain or the masked
+ * form, from the old destination and S3; its result becomes the register. */
+#define UNARY(id, cast, d, s3) D = cast(MASKED ? lrb_mask_##id##_s3(c, d, K, s3) : lrb_##id##_s3(c, s3));
+#define BINARY(id, cast, d, a, s3) D = cast(MASKED ? lrb_mask_##id##_s3(c, d, K, a, s3) : lrb_##id##_s3(c, a, s3));
+#define TERNARY(id, cast, d, a, s3) D = cast(MASKED ? lrb_mask_##id##_s3(c, d, K, a, s3) : lrb_##id##_s3(c, d, a, s3));
+#define COMPARE(id, a, s3) KD = MASKED ? lrb_mask_##id##_s3(c, K, a, s3) : lrb_##id##_s3(c, a, s3);
+#define STEP_V_V(id) UNARY(id, , D, S3)
+#define STEP_V_VV(id) BINARY(id, , D, A, S3)
+#define STEP_V_VVV(id) TERNARY(id, , D, A, S3)
+#define STEP_VI_V(id) UNARY(id, lrb_castpi_ps, DI, S3I)
+#define STEP_VI_VV(id) BINARY(id, lrb_castpi_ps, DI, AI, S3I)
+#define STEP_VD_V(id) UNARY(id, lrb_castpd_ps, DD, S3D)
 #define STEP_V_VII(id) \
     D = MASKED ? lrb_mask_##id(c, D, K, A, m->code[4], m->code[5]) : lrb_##id(c, A, m->code[4], m->code[5]);
 #define LOAD(suffix, old)                                                               \
@@ -95,8 +96,8 @@ static lrb_s3i s3_pi(const machine *m, lrb_v16i b)
     if (MASKED) lrb_mask_##id(c, place(m, 64, 64), K, A); else lrb_##id(c, place(m, 64, 64), A);
 #define STEP_M_VI(id) \
     if (MASKED) lrb_mask_##id(c, place(m, 64, 64), K, AI); else lrb_##id(c, place(m, 64, 64), AI);
-#define STEP_K_VV(id) KD = MASKED ? lrb_mask_##id##_s3(c, K, A, s3_ps(m, B)) : lrb_##id##_s3(c, A, s3_ps(m, B));
-#define STEP_KI_VV(id) KD = MASKED ? lrb_mask_##id##_s3(c, K, AI, s3_pi(m, BI)) : lrb_##id##_s3(c, AI, s3_pi(m, BI));
+#define STEP_K_VV(id) COMPARE(id, A, S3)
+#define STEP_KI_VV(id) COMPARE(id, AI, S3I)
 #define STEP_K_KK(id) KD = lrb_##id(c, KA, KB);
 #define STEP_K_K(id) KD = lrb_##id(c, KA);
 #define STEP_F_KK(id) m->flags = lrb_##id(c, KA, KB);
@@ -116,22 +117,19 @@ static lrb_s3i s3_pi(const machine *m, lrb_v16i b)
 #define STEP_H_R(id) lrb_##id(c, RA);
 #define STEP_MARK(id) lrb_##id(c, m->code[2]);
 
-static void step(machine *m)
-{
-    lrb_ctx *c = m->c;
-    switch (m->code[0] % LRB_OP_COUNT) {
+/* One function an op, none of them inlined: compilers stay fast however many ops there are. */
 #define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) \
-    case LRB_OP_##id:                                                \
-        STEP_##shape(id) break; /* case LRB_OP_add_ps: D = MASKED ? lrb_mask_add_ps_s3(...) : lrb_add_ps_s3(...); break; */
-#include "lrbni/ops.def"
+    static __attribute__((noinline)) void step_##id(machine *m)             \
+    {                                                                       \
+        lrb_ctx *c = m->c;                                                  \
+        STEP_##shape(id) /* D = MASKED ? lrb_mask_add_ps_s3(...) : lrb_add_ps_s3(...); */ \
     }
-}
+#include "lrbni/ops.def"
 
-static void hash_events(void *user, const lrb_event *events, uint32_t count)
-{
-    uint64_t *hash = user;
-    *hash = base_hash(*hash, events, count * sizeof *events);
-}
+static void (*const steps[LRB_OP_COUNT])(machine *m) = {
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) step_##id, /* step_add_ps, */
+#include "lrbni/ops.def"
+};
 
 static void load_state(machine *m, program_state *s)
 {
@@ -156,21 +154,14 @@ static void store_state(const machine *m, program_state *s)
     s->p = m->p.address;
 }
 
-int PROGRAM_RUN(program_state *s, const uint8_t *code, size_t size)
+void PROGRAM_RUN(lrb_ctx *c, program_state *s, const uint8_t *code, size_t size)
 {
-    machine m = {0};
-    s->events = BASE_HASH_START;
-    if (lrb_ctx_create(hash_events, &s->events, &m.c, NULL) != BASE_OK)
-        return -1;
-    lrb_ctx_begin(m.c);
+    machine m = {.c = c};
     load_state(&m, s);
-    for (size_t at = 0; at < size / STEP_BYTES; at += 1 + m.skip) {
-        m.code = code + at * STEP_BYTES;
+    for (size_t at = 0; at < size / PROGRAM_STEP; at += 1 + m.skip) {
+        m.code = code + at * PROGRAM_STEP;
         m.skip = 0;
-        step(&m);
+        steps[(m.code[0] | m.code[7] << 8) % LRB_OP_COUNT](&m);
     }
     store_state(&m, s);
-    lrb_ctx_end(m.c);
-    lrb_ctx_destroy(&m.c);
-    return 0;
 }

@@ -18,6 +18,9 @@
 #ifndef ROW_VI_VV
 #define ROW_VI_VV(id)
 #endif
+#ifndef ROW_VD_V
+#define ROW_VD_V(id)
+#endif
 #ifndef ROW_V_VII
 #define ROW_V_VII(id)
 #endif

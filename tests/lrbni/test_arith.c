@@ -1,19 +1,21 @@
 /* Every op between vector registers against its reference: all forms, all masks, boundary values and random bits. */
+#include <inttypes.h>
+
 #include "tests/lrbni/case.h"
 
 /* One row of ops.def: the op in the forms that the case asks for, and its reference. */
 typedef struct row {
     const char *id;
     lrb_op_id op;
-    bool integer, ternary;
+    bool wide, ternary;
     void (*run)(lrb_ctx *c, const vector_case *v, uint32_t out[16]);
-    uint32_t (*ref)(uint32_t d, uint32_t a, uint32_t b);
+    uint64_t (*ref)(uint64_t d, uint64_t a, uint64_t b);
     lrb_ctx *c;
 } row;
 
-/* RUN(add_ps, ps, case_ps(v->a),): the plain and masked register form, and the plain and masked S3 form */
-#define RUN(id, suffix, sources, before)                                                                      \
-    static void run_##id(lrb_ctx *c, const vector_case *v, uint32_t out[16])                                   \
+/* RUN(add_ps, ps, SOURCE(ps), NOTHING, ref_add_ps(a, b)): the plain and masked register form, and the plain and masked S3 form */
+#define RUN(id, suffix, sources, before, result)                                                               \
+    static __attribute__((noinline)) void run_##id(lrb_ctx *c, const vector_case *v, uint32_t out[16])         \
     {                                                                                                          \
         lrb_k16 k = lrb_mask(v->mask);                                                                         \
         if (v->form == S3_REGISTER)                                                                            \
@@ -22,24 +24,26 @@ typedef struct row {
         else                                                                                                   \
             lanes_store_##suffix(out, (v->masked ? lrb_mask_##id##_s3(c, case_##suffix(v->d), k sources, case_s3_##suffix(v)) \
                                                  : lrb_##id##_s3(c before sources, case_s3_##suffix(v))).lanes); \
+    }                                                                                                          \
+    static uint64_t ref3_##id(uint64_t d, uint64_t a, uint64_t b)                                              \
+    {                                                                                                          \
+        (void)d, (void)a;                                                                                      \
+        return result;                                                                                         \
     }
-#define SOURCE_PS , case_ps(v->a)
-#define SOURCE_PI , case_pi(v->a)
-#define OLD_PS , case_ps(v->d)
+#define SOURCE(suffix) , case_##suffix(v->a)
+#define OLD(suffix) , case_##suffix(v->d)
 #define NOTHING
 
-/* REF(add_ps, ref_add_ps(a, b)) */
-#define REF(id, result)                                              \
-    static uint32_t ref3_##id(uint32_t d, uint32_t a, uint32_t b)    \
-    {                                                                \
-        (void)d, (void)a;                                            \
-        return result;                                               \
-    }
-#define ROW_V_V(id) RUN(id, ps, NOTHING, NOTHING) REF(id, ref_##id(b))
-#define ROW_VI_V(id) RUN(id, pi, NOTHING, NOTHING) REF(id, ref_##id(b))
-#define ROW_V_VV(id) RUN(id, ps, SOURCE_PS, NOTHING) REF(id, ref_##id(a, b))
-#define ROW_VI_VV(id) RUN(id, pi, SOURCE_PI, NOTHING) REF(id, ref_##id(a, b))
-#define ROW_V_VVV(id) RUN(id, ps, SOURCE_PS, OLD_PS) REF(id, ref_##id(d, a, b))
+#define NARROW(bits) ((uint32_t)(bits))
+#define UNARY(id, suffix, lane) RUN(id, suffix, NOTHING, NOTHING, ref_##id(lane(b)))
+#define BINARY(id, suffix, lane) RUN(id, suffix, SOURCE(suffix), NOTHING, ref_##id(lane(a), lane(b)))
+#define TERNARY(id, suffix, lane) RUN(id, suffix, SOURCE(suffix), OLD(suffix), ref_##id(lane(d), lane(a), lane(b)))
+#define ROW_V_V(id) UNARY(id, ps, NARROW)
+#define ROW_V_VV(id) BINARY(id, ps, NARROW)
+#define ROW_V_VVV(id) TERNARY(id, ps, NARROW)
+#define ROW_VI_V(id) UNARY(id, pi, NARROW)
+#define ROW_VI_VV(id) BINARY(id, pi, NARROW)
+#define ROW_VD_V(id) UNARY(id, pd, )
 #include "tests/lrbni/rows.h"
 #define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* run_add_ps, ref3_add_ps */
 #include "lrbni/ops.def"
@@ -50,12 +54,12 @@ static void check(void *user, const vector_case *v)
     uint32_t out[16];
     lrb_ctx_begin(r->c);
     r->run(r->c, v, out);
-    for (int i = 0; i < 16; i++) {
-        bool live = !v->masked || (v->mask >> i & 1);
-        uint32_t expected = live ? r->ref(v->d[i], v->a[i], case_b(v, i)) : v->d[i];
-        if (out[i] != expected)
-            fail_msg("%s lane %d, mask %04x%s, form %d: d %08x a %08x b %08x: got %08x, expected %08x", r->id, i, v->mask,
-                     v->masked ? "" : " (unused)", v->form, v->d[i], v->a[i], case_b(v, i), out[i], expected);
+    for (int i = 0; i < case_lanes(v->wide); i++) {
+        uint64_t d = case_get(v->d, v->wide, i), a = case_get(v->a, v->wide, i), b = case_b(v, i);
+        uint64_t got = case_get(out, v->wide, i), expected = case_live(v, i) ? r->ref(d, a, b) : d;
+        if (got != expected)
+            fail_msg("%s lane %d, mask %04x%s, form %d: d %08" PRIx64 " a %08" PRIx64 " b %08" PRIx64 ": got %08" PRIx64
+                     ", expected %08" PRIx64, r->id, i, v->mask, v->masked ? "" : " (unused)", v->form, d, a, b, got, expected);
     }
     case_check_event(r->c, r->op, v);
 }
@@ -65,16 +69,16 @@ static void boundary_values(void **state)
     row *r = *state;
     base_random random = {.state = 1};
     if (r->ternary)
-        case_all_triples(&random, check, r);
+        case_all_triples(r->wide, &random, check, r);
     else
-        case_all_pairs(r->integer, &random, check, r);
+        case_all_pairs(r->wide, &random, check, r);
 }
 
 static void random_values(void **state)
 {
     row *r = *state;
     base_random random = {.state = 2};
-    case_random(20000, r->integer, &random, check, r);
+    case_random(20000, r->wide, &random, check, r);
 }
 
 /* The permute has immediates in place of a second source: every block choice with every word choice. */
@@ -95,8 +99,7 @@ static void shuf128x32_ps__every_immediate__as_oracle(void **state)
             lanes_store_ps(out, (v.masked ? lrb_mask_shuf128x32_ps(r->c, case_ps(v.d), lrb_mask(v.mask), a, blocks, words)
                                           : lrb_shuf128x32_ps(r->c, a, blocks, words)).lanes);
             for (int i = 0; i < 16; i++) {
-                bool live = !v.masked || (v.mask >> i & 1);
-                uint32_t expected = live ? v.a[ref_shuf128x32_ps(i, blocks, words)] : v.d[i];
+                uint32_t expected = case_live(&v, i) ? v.a[ref_shuf128x32_ps(i, blocks, words)] : v.d[i];
                 if (out[i] != expected)
                     fail_msg("lane %d, blocks %02x, words %02x, mask %04x: got %08x, expected %08x", i, blocks, words, v.mask,
                              out[i], expected);
@@ -106,17 +109,13 @@ static void shuf128x32_ps__every_immediate__as_oracle(void **state)
 }
 
 /* The rows that are served here. */
-#undef ROW_V_V
-#undef ROW_VI_V
-#undef ROW_V_VV
-#undef ROW_VI_VV
-#undef ROW_V_VVV
-#define ENTRY(id, integer, ternary) {#id, LRB_OP_##id, integer, ternary, run_##id, ref3_##id, NULL},
-#define ROW_V_V(id) ENTRY(id, false, false)
-#define ROW_VI_V(id) ENTRY(id, true, false)
-#define ROW_V_VV(id) ENTRY(id, false, false)
-#define ROW_VI_VV(id) ENTRY(id, true, false)
-#define ROW_V_VVV(id) ENTRY(id, false, true)
+#undef UNARY
+#undef BINARY
+#undef TERNARY
+#define UNARY(id, suffix, lane) ENTRY(id, sizeof lane(UINT64_C(0)) == 8, false)
+#define BINARY(id, suffix, lane) ENTRY(id, sizeof lane(UINT64_C(0)) == 8, false)
+#define TERNARY(id, suffix, lane) ENTRY(id, sizeof lane(UINT64_C(0)) == 8, true)
+#define ENTRY(id, wide, ternary) {#id, LRB_OP_##id, wide, ternary, run_##id, ref3_##id, NULL},
 static const row rows[] = {
 #define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* {"add_ps", LRB_OP_add_ps, ...}, */
 #include "lrbni/ops.def"

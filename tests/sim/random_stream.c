@@ -1,5 +1,7 @@
 #include "tests/sim/random_stream.h"
 
+#include <string.h>
+
 #include "lrbni/op_table.h"
 
 /* What the ops of a tile have in common. */
@@ -49,10 +51,12 @@ static uint16_t random_distance(base_random *random, const flavour *f)
     return 0;
 }
 
+/* The last operand is a vector: V, VI, VD; in memory only where the shape does not load or store by itself. */
 static int takes_s3(lrb_shape shape)
 {
-    return shape == LRB_SHAPE_V_V || shape == LRB_SHAPE_V_VV || shape == LRB_SHAPE_V_VVV || shape == LRB_SHAPE_VI_V ||
-           shape == LRB_SHAPE_VI_VV || shape == LRB_SHAPE_K_VV || shape == LRB_SHAPE_KI_VV;
+    const char *name = lrb_shape_table[shape].name;
+    size_t length = strlen(name);
+    return lrb_shape_table[shape].access == LRB_ACCESS_NONE && length > 2 && (name[length - 1] == 'V' || name[length - 2] == 'V');
 }
 
 /* A form that the op can have. */

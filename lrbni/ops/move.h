@@ -1,0 +1,46 @@
+/* Moves between vector registers, moves across lanes, and a register seen as other lanes. */
+#ifndef LRBNI_OPS_MOVE_H
+#define LRBNI_OPS_MOVE_H
+
+#include "lrbni/ops/forms.h"
+
+LRB_UNARY(mov_ps, ps, b.lanes)
+LRB_UNARY(mov_pi, pi, b.lanes)
+LRB_UNARY(mov_pd, pd, b.lanes)
+
+/** Block B(g) of the source, its words in the order W, becomes block g: two bits a choice, lowest first (0xe4: as is). */
+LRB_INLINE lrb_v16f lrb_shuf128x32_ps(lrb_ctx *c, lrb_v16f a, unsigned blocks, unsigned words)
+{
+    lrb_v16f d = {.lanes = lanes_shuf128x32_ps(a.lanes, blocks, words)};
+    LRB_SET_FROM(d, lrb_emit(c, LRB_OP_shuf128x32_ps, 0, 0xffff, LRB_FROM(a), 0, 0, 0, 0));
+    return d;
+}
+
+LRB_INLINE lrb_v16f lrb_mask_shuf128x32_ps(lrb_ctx *c, lrb_v16f old, lrb_k16 k, lrb_v16f a, unsigned blocks, unsigned words)
+{
+    lrb_v16f d = {.lanes = lanes_merge_ps(k.bits, old.lanes, lanes_shuf128x32_ps(a.lanes, blocks, words))};
+    LRB_SET_FROM(d, lrb_emit_masked(c, LRB_OP_shuf128x32_ps, 0, k, LRB_FROM(a), 0, LRB_FROM(old), 0));
+    return d;
+}
+
+/* LRB_CAST(lrb_castps_pi, lrb_v16f, lrb_v16i, lanes_bits_ps(a.lanes)): the same register seen as other lanes; no op */
+#define LRB_CAST(name, from, to, result)        \
+    LRB_INLINE to name(from a)                  \
+    {                                           \
+        to r = {.lanes = result};               \
+        LRB_SET_FROM(r, LRB_FROM(a));           \
+        return r;                               \
+    }
+LRB_CAST(lrb_castps_pi, lrb_v16f, lrb_v16i, lanes_bits_ps(a.lanes))
+LRB_CAST(lrb_castpi_ps, lrb_v16i, lrb_v16f, lanes_bits_pi(a.lanes))
+LRB_CAST(lrb_castpi_pq, lrb_v16i, lrb_v8q, lanes_pq_from_pi(a.lanes))
+LRB_CAST(lrb_castpq_pi, lrb_v8q, lrb_v16i, lanes_pi_from_pq(a.lanes))
+LRB_CAST(lrb_castpd_pq, lrb_v8d, lrb_v8q, lanes_bits_pd(a.lanes))
+LRB_CAST(lrb_castpq_pd, lrb_v8q, lrb_v8d, lanes_bits_pq(a.lanes))
+LRB_CAST(lrb_castps_pq, lrb_v16f, lrb_v8q, lanes_pq_from_pi(lanes_bits_ps(a.lanes)))
+LRB_CAST(lrb_castpq_ps, lrb_v8q, lrb_v16f, lanes_bits_pi(lanes_pi_from_pq(a.lanes)))
+LRB_CAST(lrb_castps_pd, lrb_v16f, lrb_v8d, lanes_bits_pq(lanes_pq_from_pi(lanes_bits_ps(a.lanes))))
+LRB_CAST(lrb_castpd_ps, lrb_v8d, lrb_v16f, lanes_bits_pi(lanes_pi_from_pq(lanes_bits_pd(a.lanes))))
+#undef LRB_CAST
+
+#endif
