@@ -42,7 +42,7 @@ typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_
 /* With a mask bit, with the four lanes of S3's group, with a mask bit as second result. */
 #define REF_V_KVV(id) uint32_t ref_##id(bool k, uint32_t a, uint32_t b);
 #define REF_VD_KVV(id) uint64_t ref_##id(bool k, uint64_t a, uint64_t b);
-#define REF_V_VG(id) uint32_t ref_##id(uint32_t a, const uint32_t group[4]);
+#define REF_V_VX(id) uint32_t ref_##id(uint32_t a, const uint32_t group[4]);
 #define REF_VK_VV(id) uint32_t ref_##id(uint32_t a, uint32_t b, bool *k);
 #define REF_K_VV(id) bool ref_##id(uint32_t a, uint32_t b);
 #define REF_KI_VV(id) bool ref_##id(uint32_t a, uint32_t b);

@@ -95,7 +95,7 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define STEP_VD_VVV(id) TERNARY(id, lrb_castpd_ps, DD, AD, S3D)
 #define STEP_V_KVV(id) D = lrb_##id##_s3(c, K, A, S3);
 #define STEP_VD_KVV(id) D = lrb_castpd_ps(lrb_##id##_s3(c, K, AD, S3D));
-#define STEP_V_VG(id) BINARY(id, , D, A, s3_groups(m, B))
+#define STEP_V_VX(id) BINARY(id, , D, A, s3_groups(m, B))
 #define STEP_VK_VV(id) D = MASKED ? lrb_mask_##id##_s3(c, D, K, A, S3, &KD) : lrb_##id##_s3(c, A, S3, &KD);
 #define STEP_V_VII(id) \
     D = MASKED ? lrb_mask_##id(c, D, K, A, m->code[4], m->code[5]) : lrb_##id(c, A, m->code[4], m->code[5]);

@@ -36,8 +36,8 @@
 #ifndef ROW_VD_KVV
 #define ROW_VD_KVV(id)
 #endif
-#ifndef ROW_V_VG
-#define ROW_V_VG(id)
+#ifndef ROW_V_VX
+#define ROW_V_VX(id)
 #endif
 #ifndef ROW_VK_VV
 #define ROW_VK_VV(id)

@@ -82,7 +82,7 @@ static void check_group_form(void *user, const vector_case *v)
         check(user, v);
 }
 
-#define ROW_V_VG(id)                                                                                          \
+#define ROW_V_VX(id)                                                                                          \
     static lrb_k16 run_##id(lrb_ctx *c, const vector_case *v, uint32_t out[16])                               \
     {                                                                                                         \
         return run_groups(c, v, out, lrb_##id##_s3, lrb_mask_##id##_s3);                                      \
@@ -145,11 +145,11 @@ static void addsets_ps__signs_into_the_mask__read_before_written(void **state)
 
 #undef ROW_V_KVV
 #undef ROW_VD_KVV
-#undef ROW_V_VG
+#undef ROW_V_VX
 #undef ROW_VK_VV
 #define ROW_V_KVV(id) cmocka_unit_test(id##__all_forms_and_masks__as_oracle),
 #define ROW_VD_KVV(id) cmocka_unit_test(id##__all_forms_and_masks__as_oracle),
-#define ROW_V_VG(id) cmocka_unit_test(id##__all_forms_and_masks__as_oracle),
+#define ROW_V_VX(id) cmocka_unit_test(id##__all_forms_and_masks__as_oracle),
 #define ROW_VK_VV(id) cmocka_unit_test(id##__all_forms_and_masks__as_oracle),
 
 int main(void)
