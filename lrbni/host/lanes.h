@@ -4,10 +4,15 @@
 
 #if defined(LRB_HOST_AVX512)
 #include "lrbni/host/avx512/lanes64.h"
+#include "lrbni/host/avx512/integer.h"
 #elif defined(LRB_HOST_AVX2)
 #include "lrbni/host/avx2/lanes64.h"
+#include "lrbni/host/avx2/integer.h"
 #else
 #include "lrbni/host/portable/lanes64.h"
+#include "lrbni/host/portable/integer.h"
 #endif
+
+#include "lrbni/host/common/integer.h"
 
 #endif

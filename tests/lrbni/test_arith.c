@@ -43,6 +43,9 @@ typedef struct row {
 #define ROW_V_VVV(id) TERNARY(id, ps, NARROW)
 #define ROW_VI_V(id) UNARY(id, pi, NARROW)
 #define ROW_VI_VV(id) BINARY(id, pi, NARROW)
+#define ROW_VI_VVV(id) TERNARY(id, pi, NARROW)
+#define ROW_VQ_V(id) UNARY(id, pq, )
+#define ROW_VQ_VV(id) BINARY(id, pq, )
 #define ROW_VD_V(id) UNARY(id, pd, )
 #include "tests/lrbni/rows.h"
 #define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) ROW_##shape(id) /* run_add_ps, ref3_add_ps */
