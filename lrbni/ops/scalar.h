@@ -200,8 +200,8 @@ LRB_INLINE bool lrb_jump_if(lrb_ctx *c, uint32_t site, lrb_flags f, bool taken)
 #define lrb_jnz(c, flags) lrb_jump_if_not_zero(c, LRB_SITE, flags)
 #define lrb_jb(c, flags) lrb_jump_if_below(c, LRB_SITE, flags)
 #define lrb_jl(c, flags) lrb_jump_if_less(c, LRB_SITE, flags)
-#define lrb_jkzd(c, k) lrb_jump_if_mask(c, LRB_OP_jkzd, LRB_SITE, k, (k).bits == 0)
-#define lrb_jknzd(c, k) lrb_jump_if_mask(c, LRB_OP_jknzd, LRB_SITE, k, (k).bits != 0)
+#define lrb_jkzd(c, k) lrb_jump_if_mask_zero(c, LRB_SITE, k)
+#define lrb_jknzd(c, k) lrb_jump_if_mask_not_zero(c, LRB_SITE, k)
 
 LRB_INLINE bool lrb_jump_if_zero(lrb_ctx *c, uint32_t site, lrb_flags f) { return lrb_jump_if(c, site, f, f.zero); }
 LRB_INLINE bool lrb_jump_if_not_zero(lrb_ctx *c, uint32_t site, lrb_flags f) { return lrb_jump_if(c, site, f, !f.zero); }
@@ -209,10 +209,16 @@ LRB_INLINE bool lrb_jump_if_below(lrb_ctx *c, uint32_t site, lrb_flags f) { retu
 LRB_INLINE bool lrb_jump_if_less(lrb_ctx *c, uint32_t site, lrb_flags f) { return lrb_jump_if(c, site, f, f.less); }
 
 /* The jumps of Knights Corner on a mask that is zero, or not. */
-LRB_INLINE bool lrb_jump_if_mask(lrb_ctx *c, lrb_op_id op, uint32_t site, lrb_k16 k, bool taken)
+LRB_INLINE bool lrb_jump_if_mask_zero(lrb_ctx *c, uint32_t site, lrb_k16 k)
 {
-    lrb_emit(c, op, 0, taken, LRB_FROM(k), 0, 0, 0, site);
-    return taken;
+    lrb_emit(c, LRB_OP_jkzd, 0, k.bits == 0, LRB_FROM(k), 0, 0, 0, site);
+    return k.bits == 0;
+}
+
+LRB_INLINE bool lrb_jump_if_mask_not_zero(lrb_ctx *c, uint32_t site, lrb_k16 k)
+{
+    lrb_emit(c, LRB_OP_jknzd, 0, k.bits != 0, LRB_FROM(k), 0, 0, 0, site);
+    return k.bits != 0;
 }
 
 /** An unconditional jump. */
