@@ -42,12 +42,6 @@ static inline uint32_t lrb_form_bytes(unsigned form)
     }
 }
 
-/** Whether the last source of that form is a swizzled register. */
-static inline int lrb_form_swizzles(unsigned form)
-{
-    return (form & (LRB_FORM_MEMORY | LRB_FORM_SWIZZLE)) == LRB_FORM_SWIZZLE;
-}
-
 typedef struct lrb_event {
     uint16_t op;     /* id and form */
     uint16_t mask;   /* 32-bit words of the vector that are written, 0xffff if unmasked: two a lane of an 8-wide op; of a

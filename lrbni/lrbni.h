@@ -5,6 +5,7 @@
 #include "lrbni/ops/arith.h"
 #include "lrbni/ops/carry.h"
 #include "lrbni/ops/compare.h"
+#include "lrbni/ops/control.h"
 #include "lrbni/ops/hints.h"
 #include "lrbni/ops/integer.h"
 #include "lrbni/ops/load_store.h"

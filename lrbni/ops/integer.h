@@ -16,12 +16,7 @@ LRB_BINARY(max_pu, pi, lanes_max_pu(a.lanes, b.lanes))
 LRB_TERNARY(madd231_pi, pi, lanes_madd231_pi(d.lanes, a.lanes, b.lanes))
 
 /* S3 of this op is a register as it is, 64 bytes of memory or {4to16} (ODB). */
-LRB_INLINE lrb_i32x16 lrb_groups_of_s3i(lrb_s3i b)
-{
-    assert(!lrb_form_swizzles(b.form) && lrb_form_bytes(b.form) != 4 && "vmadd233pi takes no swizzle and no {1to16}");
-    return b.lanes;
-}
-LRB_BINARY(madd233_pi, pi, lanes_madd233_pi(a.lanes, lrb_groups_of_s3i(b)))
+LRB_BINARY(madd233_pi, pi, (assert(lrb_is_group_form(b.form)), lanes_madd233_pi(a.lanes, b.lanes)))
 
 LRB_BINARY(andn_pi, pi, lanes_andn_pi(a.lanes, b.lanes))
 LRB_BINARY(and_pq, pq, lanes_and_pq(a.lanes, b.lanes))

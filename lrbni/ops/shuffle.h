@@ -1,4 +1,4 @@
-/* Moves of lanes: across the vector, and from one of two sources. The lane formulas are in ops.def. */
+/* Moves of lanes across the vector. The lane formulas are in ops.def. */
 #ifndef LRBNI_OPS_SHUFFLE_H
 #define LRBNI_OPS_SHUFFLE_H
 
@@ -25,21 +25,15 @@ LRB_SHUF128X32(pi)
 #undef LRB_SHUF128X32
 
 /* S3 of the permutes of Knights Corner is a register as it is, or 64 bytes of memory (ODB). */
-#define LRB_IS_WHOLE(b) (!lrb_form_swizzles((b).form) && lrb_form_bytes((b).form) == 0)
-LRB_UNARY_IMMEDIATE(pshufd_pi, pi, LRB_N, LRB_N_VALUES, n < 256 && LRB_IS_WHOLE(b), lanes_swizzle_pi(b.lanes, n))
-LRB_UNARY_IMMEDIATE(permf32x4_ps, ps, LRB_N, LRB_N_VALUES, n < 256 && LRB_IS_WHOLE(b), lanes_shuf128x32_ps(b.lanes, n, 0xe4))
+LRB_UNARY_IMMEDIATE(pshufd_pi, pi, LRB_N, LRB_N_VALUES, n < 256 && lrb_is_whole_form(b.form), lanes_swizzle_pi(b.lanes, n))
+LRB_UNARY_IMMEDIATE(permf32x4_ps, ps, LRB_N, LRB_N_VALUES, n < 256 && lrb_is_whole_form(b.form), lanes_shuf128x32_ps(b.lanes, n, 0xe4))
 
-LRB_INLINE lrb_i32x16 lrb_whole_s3i(lrb_s3i b)
-{
-    assert(LRB_IS_WHOLE(b) && "vpermd takes no swizzle and no broadcast");
-    return b.lanes;
-}
-LRB_BINARY(permd_pi, pi, lanes_permd_pi(a.lanes, lrb_whole_s3i(b)))
+LRB_BINARY(permd_pi, pi, (assert(lrb_is_whole_form(b.form)), lanes_permd_pi(a.lanes, b.lanes)))
 
 /** Lanes n and up of b, then the first n of a. */
 LRB_INLINE lrb_v16i lrb_alignd_pi_s3(lrb_ctx *c, lrb_v16i a, lrb_s3i b, unsigned n)
 {
-    assert(n < 16 && LRB_IS_WHOLE(b));
+    assert(n < 16 && lrb_is_whole_form(b.form));
     lrb_v16i d = {.lanes = lanes_alignd_pi(a.lanes, b.lanes, n)};
     LRB_SET_FROM(d, lrb_emit(c, LRB_OP_alignd_pi, b.form, 0xffff, LRB_FROM(a), LRB_FROM(b), 0, 0, b.address));
     return d;
@@ -52,7 +46,7 @@ LRB_INLINE lrb_v16i lrb_alignd_pi(lrb_ctx *c, lrb_v16i a, lrb_v16i b, unsigned n
 
 LRB_INLINE lrb_v16i lrb_mask_alignd_pi_s3(lrb_ctx *c, lrb_v16i old, lrb_k16 k, lrb_v16i a, lrb_s3i b, unsigned n)
 {
-    assert(n < 16 && LRB_IS_WHOLE(b));
+    assert(n < 16 && lrb_is_whole_form(b.form));
     lrb_v16i d = {.lanes = lanes_merge_pi(k.bits, old.lanes, lanes_alignd_pi(a.lanes, b.lanes, n))};
     LRB_SET_FROM(d, lrb_emit_masked(c, LRB_OP_alignd_pi, b.form, k, LRB_FROM(a), LRB_FROM(b), LRB_FROM(old), b.address));
     return d;
@@ -62,21 +56,5 @@ LRB_INLINE lrb_v16i lrb_mask_alignd_pi(lrb_ctx *c, lrb_v16i old, lrb_k16 k, lrb_
 {
     return lrb_mask_alignd_pi_s3(c, old, k, a, lrb_reg_pi(b), n);
 }
-
-/* LRB_BLEND(pi): b where the bit of k is 1, a elsewhere. All lanes are written: k is a source, not a write-mask. */
-#define LRB_BLEND(suffix)                                                                                 \
-    LRB_INLINE LRB_VECTOR_##suffix lrb_blend_##suffix##_s3(lrb_ctx *c, lrb_k16 k, LRB_VECTOR_##suffix a, LRB_S3_##suffix b) \
-    {                                                                                                     \
-        LRB_VECTOR_##suffix d = {.lanes = lanes_merge_##suffix(k.bits, a.lanes, b.lanes)};                \
-        LRB_SET_FROM(d, lrb_emit(c, LRB_OP_blend_##suffix, b.form, 0xffff, LRB_FROM(a), LRB_FROM(b), LRB_FROM(k), 0, b.address)); \
-        return d;                                                                                         \
-    }                                                                                                     \
-    LRB_INLINE LRB_VECTOR_##suffix lrb_blend_##suffix(lrb_ctx *c, lrb_k16 k, LRB_VECTOR_##suffix a, LRB_VECTOR_##suffix b) \
-    {                                                                                                     \
-        return lrb_blend_##suffix##_s3(c, k, a, lrb_reg_##suffix(b));                                     \
-    }
-LRB_BLEND(pi)
-LRB_BLEND(pq)
-#undef LRB_BLEND
 
 #endif

@@ -41,19 +41,19 @@ uint32_t ref_min_pu(uint32_t a, uint32_t b) { return (int64_t)a - (int64_t)b > 0
 uint32_t ref_max_pu(uint32_t a, uint32_t b) { return (int64_t)a - (int64_t)b > 0 ? a : b; }
 
 /* Sums: what does not fit is the carry, a difference below 0 the borrow. */
-static ref_sum sum_of(int64_t value) { return (ref_sum){.value = bits_of(value), .bit = value < 0 || value >= two32}; }
+static ref_carry sum_of(int64_t value) { return (ref_carry){.value = bits_of(value), .bit = value < 0 || value >= two32}; }
 
-ref_sum ref_adc_pi(uint32_t d, bool k, uint32_t b) { return sum_of((int64_t)d + b + (k ? 1 : 0)); }
-ref_sum ref_sbb_pi(uint32_t d, bool k, uint32_t b) { return sum_of((int64_t)d - b - (k ? 1 : 0)); }
-ref_sum ref_sbbr_pi(uint32_t d, bool k, uint32_t b) { return sum_of((int64_t)b - d - (k ? 1 : 0)); }
-ref_sum ref_addsetc_pi(uint32_t d, uint32_t b) { return sum_of((int64_t)d + b); }
-ref_sum ref_subsetb_pi(uint32_t d, uint32_t b) { return sum_of((int64_t)d - b); }
-ref_sum ref_subrsetb_pi(uint32_t d, uint32_t b) { return sum_of((int64_t)b - d); }
+ref_carry ref_adc_pi(uint32_t d, bool k, uint32_t b) { return sum_of((int64_t)d + b + (k ? 1 : 0)); }
+ref_carry ref_sbb_pi(uint32_t d, bool k, uint32_t b) { return sum_of((int64_t)d - b - (k ? 1 : 0)); }
+ref_carry ref_sbbr_pi(uint32_t d, bool k, uint32_t b) { return sum_of((int64_t)b - d - (k ? 1 : 0)); }
+ref_carry ref_addsetc_pi(uint32_t d, uint32_t b) { return sum_of((int64_t)d + b); }
+ref_carry ref_subsetb_pi(uint32_t d, uint32_t b) { return sum_of((int64_t)d - b); }
+ref_carry ref_subrsetb_pi(uint32_t d, uint32_t b) { return sum_of((int64_t)b - d); }
 
-ref_sum ref_addsets_pi(uint32_t a, uint32_t b)
+ref_carry ref_addsets_pi(uint32_t a, uint32_t b)
 {
     uint32_t sum = bits_of(value_of(a) + value_of(b));
-    return (ref_sum){.value = sum, .bit = value_of(sum) < 0};
+    return (ref_carry){.value = sum, .bit = value_of(sum) < 0};
 }
 
 /* Logic: every bit of the result from the two bits there. */
@@ -73,8 +73,8 @@ uint64_t ref_or_pq(uint64_t a, uint64_t b) { return logic(a, b, "0111"); }
 uint64_t ref_xor_pq(uint64_t a, uint64_t b) { return logic(a, b, "0110"); }
 uint64_t ref_andn_pq(uint64_t a, uint64_t b) { return logic(a, b, "0100"); }
 uint64_t ref_mov_pq(uint64_t b) { return b; }
-uint32_t ref_blend_pi(bool k, uint32_t a, uint32_t b) { return k ? b : a; }
-uint64_t ref_blend_pq(bool k, uint64_t a, uint64_t b) { return k ? b : a; }
+uint32_t ref_blendm_pi(bool k, uint32_t a, uint32_t b) { return k ? b : a; }
+uint64_t ref_blendm_pq(bool k, uint64_t a, uint64_t b) { return k ? b : a; }
 
 /* Shifts: one place after the other. */
 static uint32_t shift_left(uint32_t a, uint32_t n)

@@ -2,6 +2,7 @@
 #include "tests/lrbni/program.h"
 
 #define LRB_SOURCE 1
+#define LRB_CONTROL 1
 #include "lrbni/lrbni.h"
 
 enum { MEMORY_ADDRESS = 0x10000 };
@@ -32,6 +33,7 @@ typedef struct machine {
 #define AQ lrb_castps_pq(A)
 #define BQ lrb_castps_pq(B)
 #define DQ lrb_castps_pq(D)
+#define AD lrb_castps_pd(A)
 #define BD lrb_castps_pd(B)
 #define DD lrb_castps_pd(D)
 #define RD m->r[REGISTER(2)]
@@ -71,6 +73,12 @@ DEFINE_S3(ps, lrb_s3f, lrb_v16f, 1to16, 4, 4to16, 16)
 DEFINE_S3(pi, lrb_s3i, lrb_v16i, 1to16, 4, 4to16, 16)
 DEFINE_S3(pd, lrb_s3d, lrb_v8d, 1to8, 8, 4to8, 32)
 DEFINE_S3(pq, lrb_s3q, lrb_v8q, 1to8, 8, 4to8, 32)
+
+/* The forms that ops on groups of four lanes take. */
+static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
+{
+    return FORM == 0 || FORM == 2 ? s3_ps(m, b) : lrb_reg_ps(b);
+}
 #define S3 s3_ps(m, B)
 #define S3I s3_pi(m, BI)
 #define S3D s3_pd(m, BD)
@@ -93,6 +101,12 @@ DEFINE_S3(pq, lrb_s3q, lrb_v8q, 1to8, 8, 4to8, 32)
 #define STEP_VI_V(id) UNARY(id, lrb_castpi_ps, DI, S3I)
 #define STEP_VI_VV(id) BINARY(id, lrb_castpi_ps, DI, AI, S3I)
 #define STEP_VD_V(id) UNARY(id, lrb_castpd_ps, DD, S3D)
+#define STEP_VD_VV(id) BINARY(id, lrb_castpd_ps, DD, AD, S3D)
+#define STEP_VD_VVV(id) TERNARY(id, lrb_castpd_ps, DD, AD, S3D)
+#define STEP_V_KVV(id) D = lrb_##id##_s3(c, K, A, S3);
+#define STEP_VD_KVV(id) D = lrb_castpd_ps(lrb_##id##_s3(c, K, AD, S3D));
+#define STEP_V_VX(id) BINARY(id, , D, A, s3_groups(m, B))
+#define STEP_VK_VV(id) D = MASKED ? lrb_mask_##id##_s3(c, D, K, A, S3, &KD) : lrb_##id##_s3(c, A, S3, &KD);
 #define STEP_V_VII(id) \
     D = MASKED ? lrb_mask_##id(c, D, K, A, m->code[4], m->code[5]) : lrb_##id(c, A, m->code[4], m->code[5]);
 #define STEP_VI_VVV(id) TERNARY(id, lrb_castpi_ps, DI, AI, S3I)
@@ -138,6 +152,7 @@ DEFINE_S3(pq, lrb_s3q, lrb_v8q, 1to8, 8, 4to8, 32)
     if (MASKED) lrb_mask_##id(c, place(m, 64, 64), K, AI); else lrb_##id(c, place(m, 64, 64), AI);
 #define STEP_K_VV(id) COMPARE(id, A, S3)
 #define STEP_KI_VV(id) COMPARE(id, AI, S3I)
+#define STEP_KD_VV(id) COMPARE(id, AD, S3D)
 #define STEP_K_KK(id) KD = lrb_##id(c, KA, KB);
 #define STEP_K_K(id) KD = lrb_##id(c, KA);
 #define STEP_F_KK(id) m->flags = lrb_##id(c, KA, KB);
@@ -159,6 +174,8 @@ DEFINE_S3(pq, lrb_s3q, lrb_v8q, 1to8, 8, 4to8, 32)
 #define STEP_B_K(id) \
     if (lrb_##id(c, KA)) m->skip = 1;
 #define STEP_B(id) lrb_##id(c);
+#define STEP_C_M(id) lrb_##id(c, place(m, 1, 4));
+#define STEP_M_C(id) lrb_##id(c, place(m, 1, 4));
 #define STEP_H_M(id) lrb_##id(c, place(m, 1, 1));
 #define STEP_H_R(id) lrb_##id(c, RA);
 #define STEP_MARK(id) lrb_##id(c, m->code[2]);

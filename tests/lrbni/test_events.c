@@ -121,7 +121,7 @@ static void carries__two_results__one_event_with_four_sources(void **state)
     lrb_k16 k = lrb_test_pi(c, a, b), carry = lrb_mask(0);                                            /* 2 */
     lrb_v16i sum = lrb_addsetc_pi(c, a, b, &carry);                                                   /* 3 */
     sum = lrb_mask_adc_pi_s3(c, sum, k, carry, lrb_swizzle_pi(b, LRB_BADC), &carry);                  /* 4 */
-    lrb_v16i blend = lrb_blend_pi_s3(c, carry, sum, lrb_1to16_pi(lrb_at(p, 4)));                      /* 5 */
+    lrb_v16i blend = lrb_blendm_pi_s3(c, carry, sum, lrb_1to16_pi(lrb_at(p, 4)));                      /* 5 */
     lrb_v8q wide = lrb_mask_xor_pq(c, lrb_castpi_pq(a), lrb_mask(0xff81), lrb_castpi_pq(blend), lrb_castpi_pq(sum)); /* 6 */
     blend = lrb_alignd_pi(c, lrb_castpq_pi(wide), blend, 3);                                          /* 7 */
     assert_false(lrb_jkzd(c, lrb_mask(1)));                                                           /* 8 */
@@ -133,7 +133,7 @@ static void carries__two_results__one_event_with_four_sources(void **state)
     check(&e[2], LRB_OP_test_pi, 0xffff, 2, 1, 0, 0, 0);
     check(&e[3], LRB_OP_addsetc_pi, 0xffff, 0, 2, 0, 3, 0);
     check(&e[4], LRB_OP_adc_pi | LRB_FORM_SWIZZLE, 0, 1, 3, 2, 1, 0);
-    check(&e[5], LRB_OP_blend_pi | LRB_FORM_MEMORY | LRB_FORM_4_BYTES, 0xffff, 1, 0, 1, 0, scratch + 4);
+    check(&e[5], LRB_OP_blendm_pi | LRB_FORM_MEMORY | LRB_FORM_4_BYTES, 0xffff, 1, 0, 1, 0, scratch + 4);
     check(&e[6], LRB_OP_xor_pq, 0xc003, 1, 2, 0, 6, 0);
     check(&e[7], LRB_OP_alignd_pi, 0xffff, 1, 2, 0, 0, 0);
     assert_int_equal(e[8].op, LRB_OP_jkzd);

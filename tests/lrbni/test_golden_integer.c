@@ -163,8 +163,8 @@ static void case41__alignd__across_both(void **state)
 
 static void case42__blend__one_selects_the_second(void **state)
 {
-    expect_lanes(lrb_blend_pi(*state, lrb_mask(0xaaaa), groups(0, 1, 2, 3), groups(4, 5, 6, 7)), groups(0, 5, 2, 7));
-    lrb_v8q q = lrb_blend_pq(*state, lrb_mask(0xffaa), lrb_castpi_pq(groups(0, 1, 2, 3)), lrb_castpi_pq(groups(4, 5, 6, 7)));
+    expect_lanes(lrb_blendm_pi(*state, lrb_mask(0xaaaa), groups(0, 1, 2, 3), groups(4, 5, 6, 7)), groups(0, 5, 2, 7));
+    lrb_v8q q = lrb_blendm_pq(*state, lrb_mask(0xffaa), lrb_castpi_pq(groups(0, 1, 2, 3)), lrb_castpi_pq(groups(4, 5, 6, 7)));
     expect_lanes(lrb_castpq_pi(q), groups(0, 1, 6, 7));
 }
 

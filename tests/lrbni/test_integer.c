@@ -62,7 +62,7 @@ enum {
 #define LANE(value) out[i] = (value)
 #define SUM(sum)                                 \
     {                                            \
-        ref_sum s = sum;                         \
+        ref_carry s = sum;                         \
         out[i] = s.value, *k |= (uint32_t)s.bit << i; \
     }
 

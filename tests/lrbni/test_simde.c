@@ -58,15 +58,15 @@ static void compare(const vector_op *op, const vector_case *v, const uint32_t go
     {                                                                                 \
         lanes_store_##suffix(out, (call).lanes);                                      \
     }
-MORE(blend_pi, pi, lrb_blend_pi(c, lrb_mask(v->mask), case_pi(v->a), case_pi(v->b)))
-MORE(blend_pq, pq, lrb_blend_pq(c, lrb_mask(v->mask), case_pq(v->a), case_pq(v->b)))
+MORE(blendm_pi, pi, lrb_blendm_pi(c, lrb_mask(v->mask), case_pi(v->a), case_pi(v->b)))
+MORE(blendm_pq, pq, lrb_blendm_pq(c, lrb_mask(v->mask), case_pq(v->a), case_pq(v->b)))
 MORE(slli_pi, pi, lrb_slli_pi(c, case_pi(v->b), v->mask & 63))
 MORE(srli_pi, pi, lrb_srli_pi(c, case_pi(v->b), v->mask & 63))
 MORE(rotatefield_pi, pi, lrb_rotatefield_pi(c, case_pi(v->b), v->mask & 31, 0, 31))
 MORE(permd_pi, pi, lrb_permd_pi(c, case_pi(v->a), case_pi(v->b)))
 MORE(alignd_pi, pi, lrb_alignd_pi(c, case_pi(v->a), case_pi(v->b), v->mask & 15))
 #define ENTRY(id, wide) {#id, LRB_OP_##id, VECTOR_MERGE, wide, false, more_##id, NULL}
-static const vector_op more_ops[] = {ENTRY(blend_pi, false), ENTRY(blend_pq, true), ENTRY(slli_pi, false), ENTRY(srli_pi, false),
+static const vector_op more_ops[] = {ENTRY(blendm_pi, false), ENTRY(blendm_pq, true), ENTRY(slli_pi, false), ENTRY(srli_pi, false),
                                      ENTRY(rotatefield_pi, false), ENTRY(permd_pi, false), ENTRY(alignd_pi, false)};
 enum { MORE_OPS = sizeof more_ops / sizeof more_ops[0] };
 
