@@ -3,11 +3,14 @@
 #define LRBNI_LRBNI_H
 
 #include "lrbni/ops/arith.h"
+#include "lrbni/ops/carry.h"
 #include "lrbni/ops/compare.h"
 #include "lrbni/ops/control.h"
 #include "lrbni/ops/hints.h"
+#include "lrbni/ops/integer.h"
 #include "lrbni/ops/load_store.h"
 #include "lrbni/ops/move.h"
 #include "lrbni/ops/scalar.h"
+#include "lrbni/ops/shuffle.h"
 
 #endif

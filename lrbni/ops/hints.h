@@ -22,4 +22,10 @@ LRB_INLINE void lrb_delay(lrb_ctx *c, lrb_r64 a)
     lrb_emit(c, LRB_OP_delay, 0, 0xffff, LRB_FROM(a), 0, 0, 0, (uint32_t)a.value);
 }
 
+/** A filter of performance counters, set from a: no state that a kernel sees. */
+LRB_INLINE void lrb_spflt(lrb_ctx *c, lrb_r64 a)
+{
+    lrb_emit(c, LRB_OP_spflt, 0, 0xffff, LRB_FROM(a), 0, 0, 0, 0);
+}
+
 #endif

@@ -1,4 +1,4 @@
-/* Moves between vector registers, moves across lanes, and a register seen as other lanes. */
+/* Moves between vector registers, and a register seen as other lanes. */
 #ifndef LRBNI_OPS_MOVE_H
 #define LRBNI_OPS_MOVE_H
 
@@ -7,6 +7,7 @@
 LRB_UNARY(mov_ps, ps, b.lanes)
 LRB_UNARY(mov_pi, pi, b.lanes)
 LRB_UNARY(mov_pd, pd, b.lanes)
+LRB_UNARY(mov_pq, pq, b.lanes)
 
 /* LRB_BLEND(blendm_ps, ps): lrb_blendm_ps(c, k, a, b), b in the lanes whose bit in k is 1, a in the others; all are written */
 #define LRB_BLEND(id, suffix)                                                                             \
@@ -22,21 +23,9 @@ LRB_UNARY(mov_pd, pd, b.lanes)
     }
 LRB_BLEND(blendm_ps, ps)
 LRB_BLEND(blendm_pd, pd)
+LRB_BLEND(blendm_pi, pi)
+LRB_BLEND(blendm_pq, pq)
 
-/** Block B(g) of the source, its words in the order W, becomes block g: two bits a choice, lowest first (0xe4: as is). */
-LRB_INLINE lrb_v16f lrb_shuf128x32_ps(lrb_ctx *c, lrb_v16f a, unsigned blocks, unsigned words)
-{
-    lrb_v16f d = {.lanes = lanes_shuf128x32_ps(a.lanes, blocks, words)};
-    LRB_SET_FROM(d, lrb_emit(c, LRB_OP_shuf128x32_ps, 0, 0xffff, LRB_FROM(a), 0, 0, 0, 0));
-    return d;
-}
-
-LRB_INLINE lrb_v16f lrb_mask_shuf128x32_ps(lrb_ctx *c, lrb_v16f old, lrb_k16 k, lrb_v16f a, unsigned blocks, unsigned words)
-{
-    lrb_v16f d = {.lanes = lanes_merge_ps(k.bits, old.lanes, lanes_shuf128x32_ps(a.lanes, blocks, words))};
-    LRB_SET_FROM(d, lrb_emit_masked(c, LRB_OP_shuf128x32_ps, 0, k, LRB_FROM(a), 0, LRB_FROM(old), 0));
-    return d;
-}
 
 /* LRB_CAST(lrb_castps_pi, lrb_v16f, lrb_v16i, lanes_bits_ps(a.lanes)): the same register seen as other lanes; no op */
 #define LRB_CAST(name, from, to, result)        \

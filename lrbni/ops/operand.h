@@ -71,6 +71,9 @@ LRB_INLINE bool lrb_is_group_form(unsigned form)
     return form == LRB_FORM_REGISTER || form == LRB_FORM_MEMORY || form == (LRB_FORM_MEMORY | LRB_FORM_16_BYTES);
 }
 
+/** Whether S3 of that form is a register as it is, or 64 bytes of memory: what permutes take. */
+LRB_INLINE bool lrb_is_whole_form(unsigned form) { return form == LRB_FORM_REGISTER || form == LRB_FORM_MEMORY; }
+
 /* Swizzles of a register source: the word that lane 0, 1, 2, 3 of each group of four takes, two bits each. Named as
    the ISA writes them, lane 3 first. */
 typedef enum lrb_swizzle {

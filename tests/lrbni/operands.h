@@ -20,6 +20,7 @@ static const uint32_t boundary_bits[] = {
     0x7fc00000, 0xffc00000, 0x7fc00011, 0xffc00022, 0x7fffffff, 0xffffffff, /* quiet NaNs */
     0x7f800001, 0xff800001, 0x7f812345, 0x7fbfffff, 0xffbfffff, /* signalling NaNs */
     0x55555555, 0xaaaaaaaa, 0x0000ffff, 0xffff0000,
+    0x0000001f, 0x00000020, 0x00000021, 0x0000003f, /* 31, 32, 33, 63: where counts of shifts turn over */
 };
 enum { BOUNDARY_BITS = sizeof boundary_bits / sizeof boundary_bits[0] };
 
@@ -42,6 +43,7 @@ static const uint64_t boundary_bits64[] = {
     0x7ff8000000000000, 0xfff8000000000000, 0x7ff8000000000011, 0xfff8000000000022, 0x7fffffffffffffff, 0xffffffffffffffff, /* quiet NaNs */
     0x7ff0000000000001, 0xfff0000000000001, 0x7ff0000012345678, 0x7ff7ffffffffffff, 0xfff7ffffffffffff, /* signalling NaNs */
     0x5555555555555555, 0xaaaaaaaaaaaaaaaa, 0x00000000ffffffff, 0xffffffff00000000,
+    0x000000000000001f, 0x0000000000000020, 0x0000002100000021, 0x0000003f0000003f,
 };
 
 static const uint64_t triple_bits64[] = {

@@ -21,7 +21,7 @@ static uint64_t bit_by_bit(uint64_t a, uint64_t b, int width, unsigned truth)
     return result;
 }
 
-enum { AND = 8, OR = 14, XOR = 6, NOT_A_AND_B = 2, NOT_A = 3 };
+enum { AND = 8, OR = 14, XOR = 6, XNOR = 9, NOT_A_AND_B = 2, A_AND_NOT_B = 4, NOT_A = 3 };
 
 /* Schoolbook addition, one bit after the other. */
 static uint64_t add_bits(uint64_t a, uint64_t b, unsigned carry, int width)
@@ -90,6 +90,23 @@ ref_flags ref_kortest(uint32_t a, uint32_t b)
     return (ref_flags){.zero = set == 0, .carry = set == 16};
 }
 
+uint32_t ref_kxnor(uint32_t a, uint32_t b) { return (uint32_t)bit_by_bit(a, b, 16, XNOR); }
+uint32_t ref_kandnr(uint32_t a, uint32_t b) { return (uint32_t)bit_by_bit(a, b, 16, A_AND_NOT_B); }
+uint32_t ref_kmov_kk(uint32_t a) { return a; }
+
+/* Bytes as digits of base 256, masks of base 65536. */
+uint32_t ref_kswapb(uint32_t a, uint32_t b) { return b % 256 * 256 + a / 256; }
+uint32_t ref_kmovlhb(uint32_t a, uint32_t b) { return b % 256 * 256 + a % 256; }
+uint64_t ref_kconcath(uint32_t a, uint32_t b) { return (a * UINT64_C(65536) + b) * 65536 * 65536; }
+uint64_t ref_kconcatl(uint32_t a, uint32_t b) { return a * UINT64_C(65536) + b; }
+
+uint32_t ref_kextract(uint64_t a, unsigned n)
+{
+    for (; n < 3; n++)
+        a /= 65536;
+    return (uint32_t)(a % 65536);
+}
+
 uint32_t ref_kmov_kr(uint64_t a) { return (uint32_t)(a % 65536); }
 uint64_t ref_kmov_rk(uint32_t a) { return a % 65536; }
 
@@ -132,6 +149,49 @@ uint64_t ref_bsfi(uint64_t a, uint64_t b)
         if ((b >> position & 1) && (int64_t)a < position)
             return (uint64_t)position;
     return UINT64_MAX;
+}
+
+/* Upwards, so that the last one found is the highest. */
+uint64_t ref_bsri(uint64_t a, uint64_t b)
+{
+    uint64_t found = UINT64_MAX;
+    for (int position = 0; position < 64 && position < (int64_t)a; position++)
+        if (b >> position & 1)
+            found = (uint64_t)position;
+    return found;
+}
+
+uint64_t ref_bsff(uint64_t a) { return ref_bsfi((uint64_t)INT64_C(-1), a); }
+uint64_t ref_bsrf(uint64_t a) { return ref_bsri(1000, a); }
+
+uint64_t ref_tzcnti(uint64_t a, uint64_t b)
+{
+    int64_t position = (int64_t)a < 0 ? 0 : (int64_t)a;
+    uint64_t count = 0;
+    if (position > 63)
+        return 64;
+    for (; position < 64 && !(b >> position & 1); position++)
+        count++;
+    return count;
+}
+
+uint64_t ref_tzcnt(uint64_t a) { return ref_tzcnti(0, a); }
+
+uint64_t ref_lzcnt(uint64_t a)
+{
+    uint64_t count = 64;
+    for (; a; a /= 2)
+        count--;
+    return count;
+}
+
+/* Digits of base 16. */
+uint64_t ref_quadmask16(uint64_t a)
+{
+    uint64_t result = 0;
+    for (int j = 0; j < 4; j++, a /= 16)
+        result += a % 16 ? UINT64_C(1) << j : 0;
+    return result;
 }
 
 uint64_t ref_bts(uint64_t a, uint64_t b)
@@ -192,6 +252,8 @@ bool ref_jcc(ref_flags flags, ref_condition condition)
     return holds[condition];
 }
 
+bool ref_jkzd(uint32_t a) { return a == 0; }
+bool ref_jknzd(uint32_t a) { return a > 0; }
 bool ref_jmp(void) { return true; }
 uint32_t ref_phase(uint32_t number) { return number; }
 uint32_t ref_region(uint32_t number) { return number; }
@@ -201,3 +263,4 @@ uint32_t ref_prefetch2(uint32_t address) { return address; }
 uint32_t ref_evict1(uint32_t address) { return address; }
 uint32_t ref_evict2(uint32_t address) { return address; }
 uint32_t ref_delay(uint64_t a) { return (uint32_t)(a % 4294967296u); }
+uint32_t ref_spflt(uint64_t a) { return (void)a, 0; }

@@ -15,6 +15,12 @@ typedef struct ref_flags {
     bool zero, carry, less;
 } ref_flags;
 
+/* A lane and the bit of the mask beside it: carry, borrow or sign. */
+typedef struct ref_carry {
+    uint32_t value;
+    bool bit;
+} ref_carry;
+
 /* The state of the machine that float ops depend on. */
 enum { REF_NEAREST, REF_DOWN, REF_UP, REF_TOWARDS_ZERO };
 
@@ -76,6 +82,32 @@ typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_
 #define REF_H_M(id) uint32_t ref_##id(uint32_t address);
 #define REF_H_R(id) uint32_t ref_##id(uint64_t a);
 #define REF_MARK(id) uint32_t ref_##id(uint32_t number);
+
+/* Integer lanes: with immediates, with a bit of a mask in and out, with one lane's group of four of S3. */
+#define REF_VI_VVV(id) uint32_t ref_##id(uint32_t d, uint32_t a, uint32_t b);
+#define REF_VI_VX(id) uint32_t ref_##id(uint32_t a, const uint32_t group[4]);
+#define REF_VI_VI(id) uint32_t ref_##id(uint32_t b, unsigned n);
+#define REF_VI_VIII(id) uint32_t ref_##id(uint32_t b, unsigned n, unsigned low, unsigned high);
+#define REF_VI_VVIII(id) uint32_t ref_##id(uint32_t d, uint32_t b, unsigned n, unsigned low, unsigned high);
+#define REF_VIK_VKV(id) ref_carry ref_##id(uint32_t d, bool k, uint32_t b);
+#define REF_VIK_V(id) ref_carry ref_##id(uint32_t d, uint32_t b);
+#define REF_VIK_VV(id) ref_carry ref_##id(uint32_t a, uint32_t b);
+#define REF_VI_KVV(id) uint32_t ref_##id(bool k, uint32_t a, uint32_t b);
+#define REF_VQ_V(id) uint64_t ref_##id(uint64_t b);
+#define REF_VQ_VV(id) uint64_t ref_##id(uint64_t a, uint64_t b);
+#define REF_VQ_KVV(id) uint64_t ref_##id(bool k, uint64_t a, uint64_t b);
+/* The lane that lane `lane` takes: of a; of b; of b by the index in a; of b (0 to 15) or a (16 to 31). */
+#define REF_VI_XII(id) int ref_##id(int lane, unsigned blocks, unsigned words);
+#define REF_VI_XI(id) int ref_##id(int lane, unsigned n);
+#define REF_V_XI(id) int ref_##id(int lane, unsigned n);
+#define REF_VI_XX(id) int ref_##id(int lane, uint32_t index);
+#define REF_VI_XXI(id) int ref_##id(int lane, unsigned n);
+/* More of masks and general registers. */
+#define REF_R_KK(id) uint64_t ref_##id(uint32_t a, uint32_t b);
+#define REF_K_RI(id) uint32_t ref_##id(uint64_t a, unsigned n);
+#define REF_B_K(id) bool ref_##id(uint32_t a);
+#define REF_R_RIII(id) uint64_t ref_##id(uint64_t a, unsigned n, unsigned low, unsigned high);
+#define REF_R_RRIII(id) uint64_t ref_##id(uint64_t a, uint64_t b, unsigned n, unsigned low, unsigned high);
 
 #define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) REF_##shape(id) /* uint32_t ref_add_ps(...); */
 #include "lrbni/ops.def"

@@ -30,6 +30,9 @@ typedef struct machine {
 #define AI lrb_castps_pi(A)
 #define BI lrb_castps_pi(B)
 #define DI lrb_castps_pi(D)
+#define AQ lrb_castps_pq(A)
+#define BQ lrb_castps_pq(B)
+#define DQ lrb_castps_pq(D)
 #define AD lrb_castps_pd(A)
 #define BD lrb_castps_pd(B)
 #define DD lrb_castps_pd(D)
@@ -69,6 +72,7 @@ static lrb_mem place(const machine *m, int32_t align, int32_t bytes)
 DEFINE_S3(ps, lrb_s3f, lrb_v16f, 1to16, 4, 4to16, 16)
 DEFINE_S3(pi, lrb_s3i, lrb_v16i, 1to16, 4, 4to16, 16)
 DEFINE_S3(pd, lrb_s3d, lrb_v8d, 1to8, 8, 4to8, 32)
+DEFINE_S3(pq, lrb_s3q, lrb_v8q, 1to8, 8, 4to8, 32)
 
 /* The forms that ops on groups of four lanes take. */
 static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
@@ -78,6 +82,12 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define S3 s3_ps(m, B)
 #define S3I s3_pi(m, BI)
 #define S3D s3_pd(m, BD)
+#define S3Q s3_pq(m, BQ)
+
+/* S3 of ops that take no swizzle, and no broadcast or none but {4to16}. */
+#define S3_WHOLE (FORM & 1 ? lrb_full_ps(place(m, 64, 64)) : lrb_reg_ps(B))
+#define S3I_WHOLE (FORM & 1 ? lrb_full_pi(place(m, 64, 64)) : lrb_reg_pi(BI))
+#define S3I_GROUPS (FORM & 2 ? lrb_4to16_pi(place(m, 16, 16)) : S3I_WHOLE)
 
 /* What an op of each shape does with the instruction's operands. UNARY(mov_pi, lrb_castpi_ps, DI, S3I): the plain or the masked
  * form, from the old destination and S3; its result becomes the register. */
@@ -99,6 +109,36 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define STEP_VK_VV(id) D = MASKED ? lrb_mask_##id##_s3(c, D, K, A, S3, &KD) : lrb_##id##_s3(c, A, S3, &KD);
 #define STEP_V_VII(id) \
     D = MASKED ? lrb_mask_##id(c, D, K, A, m->code[4], m->code[5]) : lrb_##id(c, A, m->code[4], m->code[5]);
+#define STEP_VI_VVV(id) TERNARY(id, lrb_castpi_ps, DI, AI, S3I)
+#define STEP_VI_VX(id) BINARY(id, lrb_castpi_ps, DI, AI, S3I_GROUPS)
+#define STEP_VQ_V(id) UNARY(id, lrb_castpq_ps, DQ, S3Q)
+#define STEP_VQ_VV(id) BINARY(id, lrb_castpq_ps, DQ, AQ, S3Q)
+#define STEP_VI_KVV(id) D = lrb_castpi_ps(lrb_##id##_s3(c, K, AI, S3I));
+#define STEP_VQ_KVV(id) D = lrb_castpq_ps(lrb_##id##_s3(c, K, AQ, S3Q));
+/* Immediates are bytes that serve as operands elsewhere. */
+#define N (m->code[3])
+#define LOW (m->code[5] & 31)
+#define HIGH (LOW + m->code[6] % (32 - LOW))
+#define STEP_VI_VI(id) \
+    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, S3I, N & (N & 1 ? 255 : 31)) : lrb_##id##_s3(c, S3I, N & (N & 1 ? 255 : 31)));
+#define STEP_VI_VIII(id) \
+    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, S3I, N & 31, LOW, HIGH) : lrb_##id##_s3(c, S3I, N & 31, LOW, HIGH));
+#define STEP_VI_VVIII(id) \
+    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, S3I, N & 31, LOW, HIGH) : lrb_##id##_s3(c, DI, S3I, N & 31, LOW, HIGH));
+#define STEP_VIK_VKV(id) \
+    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, KA, S3I, &KD) : lrb_##id##_s3(c, DI, KA, S3I, &KD));
+#define STEP_VIK_V(id) \
+    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, KA, S3I, &KD) : lrb_##id##_s3(c, DI, S3I, &KD));
+#define STEP_VIK_VV(id) \
+    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, AI, S3I, &KD) : lrb_##id##_s3(c, AI, S3I, &KD));
+#define STEP_VI_XII(id) \
+    D = lrb_castpi_ps(MASKED ? lrb_mask_##id(c, DI, K, AI, m->code[4], m->code[5]) : lrb_##id(c, AI, m->code[4], m->code[5]));
+#define STEP_VI_XI(id) \
+    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, S3I_WHOLE, N) : lrb_##id##_s3(c, S3I_WHOLE, N));
+#define STEP_V_XI(id) D = MASKED ? lrb_mask_##id##_s3(c, D, K, S3_WHOLE, N) : lrb_##id##_s3(c, S3_WHOLE, N);
+#define STEP_VI_XX(id) BINARY(id, lrb_castpi_ps, DI, AI, S3I_WHOLE)
+#define STEP_VI_XXI(id) \
+    D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, AI, S3I_WHOLE, N % 16) : lrb_##id##_s3(c, AI, S3I_WHOLE, N % 16));
 #define LOAD(suffix, old)                                                               \
     FORM % 4 == 0   ? lrb_load_##suffix(c, place(m, 64, 64))                            \
     : FORM % 4 == 1 ? lrb_load_1to16_##suffix(c, place(m, 4, 4))                        \
@@ -127,6 +167,12 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define STEP_F_RR(id) m->flags = lrb_##id(c, RA, RB);
 #define STEP_B_F(id) \
     if (m->code[2] & 1 ? lrb_jl(c, m->flags) : lrb_jz(c, m->flags)) m->skip = 1;
+#define STEP_R_KK(id) RD = lrb_##id(c, KA, KB);
+#define STEP_K_RI(id) KD = lrb_##id(c, RA, m->code[4] % 4);
+#define STEP_R_RIII(id) RD = lrb_##id(c, RA, m->code[4] % 64, LOW, HIGH);
+#define STEP_R_RRIII(id) RD = lrb_##id(c, RA, RB, m->code[6] % 64, LOW, 63 - LOW);
+#define STEP_B_K(id) \
+    if (lrb_##id(c, KA)) m->skip = 1;
 #define STEP_B(id) lrb_##id(c);
 #define STEP_C_M(id) lrb_##id(c, place(m, 1, 4));
 #define STEP_M_C(id) lrb_##id(c, place(m, 1, 4));

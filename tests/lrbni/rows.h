@@ -120,5 +120,71 @@
 #ifndef ROW_MARK
 #define ROW_MARK(id)
 #endif
+#ifndef ROW_VI_VVV
+#define ROW_VI_VVV(id)
+#endif
+#ifndef ROW_VI_VX
+#define ROW_VI_VX(id)
+#endif
+#ifndef ROW_VI_VI
+#define ROW_VI_VI(id)
+#endif
+#ifndef ROW_VI_VIII
+#define ROW_VI_VIII(id)
+#endif
+#ifndef ROW_VI_VVIII
+#define ROW_VI_VVIII(id)
+#endif
+#ifndef ROW_VIK_VKV
+#define ROW_VIK_VKV(id)
+#endif
+#ifndef ROW_VIK_V
+#define ROW_VIK_V(id)
+#endif
+#ifndef ROW_VIK_VV
+#define ROW_VIK_VV(id)
+#endif
+#ifndef ROW_VI_KVV
+#define ROW_VI_KVV(id)
+#endif
+#ifndef ROW_VQ_V
+#define ROW_VQ_V(id)
+#endif
+#ifndef ROW_VQ_VV
+#define ROW_VQ_VV(id)
+#endif
+#ifndef ROW_VQ_KVV
+#define ROW_VQ_KVV(id)
+#endif
+#ifndef ROW_VI_XII
+#define ROW_VI_XII(id)
+#endif
+#ifndef ROW_VI_XI
+#define ROW_VI_XI(id)
+#endif
+#ifndef ROW_V_XI
+#define ROW_V_XI(id)
+#endif
+#ifndef ROW_VI_XX
+#define ROW_VI_XX(id)
+#endif
+#ifndef ROW_VI_XXI
+#define ROW_VI_XXI(id)
+#endif
+#ifndef ROW_R_KK
+#define ROW_R_KK(id)
+#endif
+#ifndef ROW_K_RI
+#define ROW_K_RI(id)
+#endif
+#ifndef ROW_B_K
+#define ROW_B_K(id)
+#endif
+#ifndef ROW_R_RIII
+#define ROW_R_RIII(id)
+#endif
+#ifndef ROW_R_RRIII
+#define ROW_R_RRIII(id)
+#endif
 
 #endif

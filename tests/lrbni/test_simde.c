@@ -52,12 +52,33 @@ static void compare(const vector_op *op, const vector_case *v, const uint32_t go
     }
 }
 
+/* Ops that take more than lanes: their masks and immediates are made from the case's mask, as in simde.def. */
+#define MORE(id, suffix, call)                                                        \
+    static void more_##id(lrb_ctx *c, const vector_case *v, uint32_t out[16])         \
+    {                                                                                 \
+        lanes_store_##suffix(out, (call).lanes);                                      \
+    }
+MORE(blendm_pi, pi, lrb_blendm_pi(c, lrb_mask(v->mask), case_pi(v->a), case_pi(v->b)))
+MORE(blendm_pq, pq, lrb_blendm_pq(c, lrb_mask(v->mask), case_pq(v->a), case_pq(v->b)))
+MORE(slli_pi, pi, lrb_slli_pi(c, case_pi(v->b), v->mask & 63))
+MORE(srli_pi, pi, lrb_srli_pi(c, case_pi(v->b), v->mask & 63))
+MORE(rotatefield_pi, pi, lrb_rotatefield_pi(c, case_pi(v->b), v->mask & 31, 0, 31))
+MORE(permd_pi, pi, lrb_permd_pi(c, case_pi(v->a), case_pi(v->b)))
+MORE(alignd_pi, pi, lrb_alignd_pi(c, case_pi(v->a), case_pi(v->b), v->mask & 15))
+#define ENTRY(id, wide) {#id, LRB_OP_##id, VECTOR_MERGE, wide, false, more_##id, NULL}
+static const vector_op more_ops[] = {ENTRY(blendm_pi, false), ENTRY(blendm_pq, true), ENTRY(slli_pi, false), ENTRY(srli_pi, false),
+                                     ENTRY(rotatefield_pi, false), ENTRY(permd_pi, false), ENTRY(alignd_pi, false)};
+enum { MORE_OPS = sizeof more_ops / sizeof more_ops[0] };
+
 static const vector_op *op_of(lrb_op_id id)
 {
+    for (int i = 0; i < MORE_OPS; i++)
+        if (more_ops[i].op == id)
+            return &more_ops[i];
     for (int i = 0; i < VECTOR_OPS; i++)
         if (vector_ops[i].op == id)
             return &vector_ops[i];
-    fail_msg("%s is in simde.def, but has no shape of vector_ops.h", lrb_op_table[id].id);
+    fail_msg("%s is in simde.def, but neither in vector_ops.h nor here", lrb_op_table[id].id);
     return NULL;
 }
 

@@ -72,7 +72,10 @@ typedef struct vector_op {
 #define ROW_VD_VVV(id) VECTOR_TERNARY(id, pd, WIDE)
 #define ROW_KD_VV(id) VECTOR_COMPARE_OP(id, pd, WIDE)
 #define ROW_VI_VV(id) VECTOR_BINARY(id, pi, NARROW)
+#define ROW_VQ_V(id) VECTOR_UNARY(id, pq, WIDE)
+#define ROW_VQ_VV(id) VECTOR_BINARY(id, pq, WIDE)
 #define ROW_V_VVV(id) VECTOR_TERNARY(id, ps, NARROW)
+#define ROW_VI_VVV(id) VECTOR_TERNARY(id, pi, NARROW)
 #define ROW_K_VV(id) VECTOR_COMPARE_OP(id, ps, NARROW)
 #define ROW_KI_VV(id) VECTOR_COMPARE_OP(id, pi, NARROW)
 #include "tests/lrbni/rows.h"
