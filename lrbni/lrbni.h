@@ -4,9 +4,13 @@
 
 #include "lrbni/ops/arith.h"
 #include "lrbni/ops/compare.h"
+#include "lrbni/ops/gather.h"
 #include "lrbni/ops/hints.h"
+#include "lrbni/ops/load_convert.h"
 #include "lrbni/ops/load_store.h"
 #include "lrbni/ops/move.h"
+#include "lrbni/ops/pack.h"
 #include "lrbni/ops/scalar.h"
+#include "lrbni/ops/scalar_memory.h"
 
 #endif

@@ -1,4 +1,6 @@
 /* Compiled with PROGRAM_RUN as the name of the entry, for one back end, at one level. */
+#include <string.h>
+
 #include "tests/lrbni/program.h"
 
 #define LRB_SOURCE 1
@@ -85,17 +87,6 @@ DEFINE_S3(pd, lrb_s3d, lrb_v8d, 1to8, 8, 4to8, 32)
 #define STEP_VD_V(id) UNARY(id, lrb_castpd_ps, DD, S3D)
 #define STEP_V_VII(id) \
     D = MASKED ? lrb_mask_##id(c, D, K, A, m->code[4], m->code[5]) : lrb_##id(c, A, m->code[4], m->code[5]);
-#define LOAD(suffix, old)                                                               \
-    FORM % 4 == 0   ? lrb_load_##suffix(c, place(m, 64, 64))                            \
-    : FORM % 4 == 1 ? lrb_load_1to16_##suffix(c, place(m, 4, 4))                        \
-    : FORM % 4 == 2 ? lrb_load_4to16_##suffix(c, place(m, 16, 16))                      \
-                    : lrb_mask_load_##suffix(c, old, K, place(m, 64, 64))
-#define STEP_V_M(id) D = LOAD(ps, D);
-#define STEP_VI_M(id) D = lrb_castpi_ps(LOAD(pi, DI));
-#define STEP_M_V(id) \
-    if (MASKED) lrb_mask_##id(c, place(m, 64, 64), K, A); else lrb_##id(c, place(m, 64, 64), A);
-#define STEP_M_VI(id) \
-    if (MASKED) lrb_mask_##id(c, place(m, 64, 64), K, AI); else lrb_##id(c, place(m, 64, 64), AI);
 #define STEP_K_VV(id) COMPARE(id, A, S3)
 #define STEP_KI_VV(id) COMPARE(id, AI, S3I)
 #define STEP_K_KK(id) KD = lrb_##id(c, KA, KB);
@@ -107,15 +98,14 @@ DEFINE_S3(pd, lrb_s3d, lrb_v8d, 1to8, 8, 4to8, 32)
 #define STEP_R_RR(id) RD = lrb_##id(c, RA, RB);
 #define STEP_R_RI(id) RD = lrb_##id(c, RA, m->code[4] % 64);
 #define STEP_P_PR(id) m->p = lrb_##id(c, m->memory, lrb_imm(m->code[5]), 1u << (m->code[4] & 1), m->code[6]);
-#define STEP_R_M(id) RD = lrb_##id(c, place(m, 1, 4));
-#define STEP_M_R(id) lrb_##id(c, place(m, 1, 4), RA);
 #define STEP_F_RR(id) m->flags = lrb_##id(c, RA, RB);
 #define STEP_B_F(id) \
     if (m->code[2] & 1 ? lrb_jl(c, m->flags) : lrb_jz(c, m->flags)) m->skip = 1;
 #define STEP_B(id) lrb_##id(c);
-#define STEP_H_M(id) lrb_##id(c, place(m, 1, 1));
 #define STEP_H_R(id) lrb_##id(c, RA);
 #define STEP_MARK(id) lrb_##id(c, m->code[2]);
+
+#include "tests/lrbni/program_memory.h"
 
 /* One function an op, none of them inlined: compilers stay fast however many ops there are. */
 #define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) \
