@@ -8,7 +8,7 @@
 
 #include "lrbni/numeric.h"
 #include "lrbni/op_table.h"
-#include "lrbni/srgb8.h"
+#include "lrbni/srgb8_decode.h"
 
 /* What loads convert from: LRB_UP_PS_none, LRB_UP_PS_float16, ..., LRB_UP_PI_none, ... */
 #define UP_PS(id, ...) LRB_UP_PS_##id,

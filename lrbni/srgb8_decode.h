@@ -1,6 +1,6 @@
 /* Linear light of the 256 values of 8-bit sRGB. */
-#ifndef LRBNI_SRGB8_H
-#define LRBNI_SRGB8_H
+#ifndef LRBNI_SRGB8_DECODE_H
+#define LRBNI_SRGB8_DECODE_H
 
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-#include "lrbni/srgb8.h"
+#include "lrbni/srgb8_decode.h"
 
 const uint32_t lrb_srgb8_bits[256] = {
     0x00000000, 0x399f22b4, 0x3a1f22b4, 0x3a6eb40e, 0x3a9f22b4, 0x3ac6eb61, 0x3aeeb40e, 0x3b0b3e5d,
