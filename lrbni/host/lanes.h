@@ -3,13 +3,13 @@
 #define LRBNI_HOST_LANES_H
 
 #if defined(LRB_HOST_AVX512)
+#include "lrbni/host/avx512/arith.h"
 #include "lrbni/host/avx512/half.h"
-#include "lrbni/host/avx512/lanes64.h"
 #elif defined(LRB_HOST_AVX2)
+#include "lrbni/host/avx2/arith.h"
 #include "lrbni/host/avx2/half.h"
-#include "lrbni/host/avx2/lanes64.h"
 #else
-#include "lrbni/host/portable/lanes64.h"
+#include "lrbni/host/portable/arith.h"
 #endif
 #include "lrbni/host/common/conversions.h"
 

@@ -59,7 +59,7 @@ static bool is_store(const lrb_event *e)
 
 static bool is_vector_store(const lrb_event *e)
 {
-    return is_store(e) && info_of(e)->shape != LRB_SHAPE_M_R;
+    return is_store(e) && strchr(lrb_shape_table[info_of(e)->shape].name, 'V');
 }
 
 static bool is_hint(const lrb_event *e)
