@@ -8,6 +8,7 @@
 
 #include "lrbni/numeric.h"
 #include "lrbni/op_table.h"
+#include "lrbni/rounding.h"
 #include "lrbni/srgb8_decode.h"
 
 /* What loads convert from: LRB_UP_PS_none, LRB_UP_PS_float16, ..., LRB_UP_PI_none, ... */
@@ -170,8 +171,10 @@ static inline uint32_t lrb_up_pi_sint8(uint32_t m) { return (uint32_t)(int8_t)m;
 static inline uint32_t lrb_up_pi_uint16(uint32_t m) { return m; }
 static inline uint32_t lrb_up_pi_sint16(uint32_t m) { return (uint32_t)(int16_t)m; }
 
-/* The half of a float, without its sign: rounded to nearest even, or towards zero. */
-static inline uint32_t lrb_down_half(uint32_t bits, int nearest)
+/* The half of a float, without its sign: to nearest even, towards zero, or away from it. */
+typedef enum lrb_half_rounding { LRB_HALF_NEAREST, LRB_HALF_TO_ZERO, LRB_HALF_AWAY } lrb_half_rounding;
+
+static inline uint32_t lrb_down_half(uint32_t bits, lrb_half_rounding rounding)
 {
     const uint32_t hidden = UINT32_C(0x00800000), exponent = bits >> 23;
     const uint32_t significand = exponent ? (bits & (hidden - 1)) | hidden : bits;
@@ -179,17 +182,24 @@ static inline uint32_t lrb_down_half(uint32_t bits, int nearest)
     const int subnormal = exponent < 127 - 14;
     const uint32_t shift = !subnormal ? 13 : distance > 31 ? 31 : distance;
     const uint32_t value = subnormal ? significand : bits - ((127 - 15) << 23);
-    const uint32_t up = nearest ? (1u << (shift - 1)) - 1 + (value >> shift & 1) : 0;
-    const uint32_t half = (value + up) >> shift, largest = nearest ? 0x7c00 : 0x7bff;
-    const uint32_t finite = bits >= UINT32_C(0x47800000) ? largest : half; /* from 2^16 on */
+    const uint32_t up = rounding == LRB_HALF_NEAREST ? (1u << (shift - 1)) - 1 + (value >> shift & 1)
+                        : rounding == LRB_HALF_AWAY  ? (1u << shift) - 1
+                                                     : 0;
+    const uint32_t finite = bits >= UINT32_C(0x47800000) ? (rounding == LRB_HALF_TO_ZERO ? 0x7bff : 0x7c00) /* from 2^16 on */
+                                                         : (value + up) >> shift;
     if (bits < UINT32_C(0x7f800000))
         return finite;
     return bits == UINT32_C(0x7f800000) ? 0x7c00 : 0x7e00 | (bits >> 13 & 0x3ff);
 }
 
+static inline uint32_t lrb_down_signed_half(uint32_t a, lrb_half_rounding rounding)
+{
+    return (a >> 16 & 0x8000u) | lrb_down_half(a & 0x7fffffffu, rounding);
+}
+
 static inline uint32_t lrb_down_ps_none(uint32_t a) { return a; }
-static inline uint32_t lrb_down_ps_float16(uint32_t a) { return (a >> 16 & 0x8000u) | lrb_down_half(a & 0x7fffffffu, 1); }
-static inline uint32_t lrb_down_ps_float16_rz(uint32_t a) { return (a >> 16 & 0x8000u) | lrb_down_half(a & 0x7fffffffu, 0); }
+static inline uint32_t lrb_down_ps_float16(uint32_t a) { return lrb_down_signed_half(a, LRB_HALF_NEAREST); }
+static inline uint32_t lrb_down_ps_float16_rz(uint32_t a) { return lrb_down_signed_half(a, LRB_HALF_TO_ZERO); }
 
 /* To nearest even, within [least, most], which fit in 22 bits; 0 of a NaN. Adding 1.5 * 2^23 leaves no bit behind the point. */
 static inline uint32_t lrb_down_integer(uint32_t a, float least, float most)
@@ -217,6 +227,23 @@ static inline uint32_t lrb_down_ps_unorm8(uint32_t a) { return lrb_down_norm(a, 
 static inline uint32_t lrb_down_ps_snorm8(uint32_t a) { return lrb_down_norm(a, -1.0, 127.0) & 0xff; }
 static inline uint32_t lrb_down_ps_unorm16(uint32_t a) { return lrb_down_norm(a, 0.0, 65535.0); }
 static inline uint32_t lrb_down_ps_snorm16(uint32_t a) { return lrb_down_norm(a, -1.0, 32767.0) & 0xffff; }
+
+/** The same in another rounding mode of the machine, for the formats that look at it: halves and integers. */
+static inline uint32_t lrb_down_ps_in_mode(lrb_down_ps down, uint32_t a, lrb_rounding mode)
+{
+    const float least = down == LRB_DOWN_PS_sint8 ? -128.0f : down == LRB_DOWN_PS_sint16 ? -32768.0f : 0.0f;
+    const float most = down == LRB_DOWN_PS_uint8    ? 255.0f
+                       : down == LRB_DOWN_PS_sint8  ? 127.0f
+                       : down == LRB_DOWN_PS_uint16 ? 65535.0f
+                                                    : 32767.0f;
+    const double whole = lrb_whole((double)lrb_bits_float(a), mode);
+    const int32_t integer = whole > (double)most ? (int32_t)most : whole < (double)least ? (int32_t)least : whole == whole ? (int32_t)whole : 0;
+    if (down == LRB_DOWN_PS_float16)
+        return lrb_down_signed_half(a, mode == LRB_RN                          ? LRB_HALF_NEAREST
+                                       : mode == (a >> 31 ? LRB_RD : LRB_RU) ? LRB_HALF_AWAY
+                                                                              : LRB_HALF_TO_ZERO);
+    return (uint32_t)integer;
+}
 
 static inline uint32_t lrb_saturate(uint32_t a, int32_t least, int32_t most)
 {

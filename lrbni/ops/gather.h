@@ -74,8 +74,7 @@ LRB_INLINE void lrb_complete(lrb_k16 *k, uint32_t lanes, uint32_t completed, uin
         const unsigned bytes = lrb_down_##suffix##_bytes(down);                                           \
         const lrb_execution x = lrb_execute(k->bits & LRB_LANES_##suffix, base, index, scale);            \
         lrb_assert_elements_aligned(&x, base.address, bytes);                                             \
-        lrb_elements e;                                                                                   \
-        lanes_down_##suffix(e.bytes, a.lanes, down);                                                      \
+        const lrb_elements e = lrb_down_elements_##suffix(c, a.lanes, down);                              \
         lrb_write_places(&x.places, x.lanes, base.host, bytes, &e);                                       \
         uint32_t id = LRB_EMIT_MASKED_##suffix(c, LRB_OP_scatterd_##suffix, lrb_form_of_line(x.lanes), lrb_moved(*k, x.lanes), \
                                                LRB_BASE_FROM(base), LRB_FROM(index), LRB_FROM(a), x.address); \

@@ -49,8 +49,7 @@ LRB_LOAD_UP(load_up_4to16, pi, 4)
         const unsigned bytes = lrb_down_##suffix##_bytes(down);                                           \
         LRB_ASSERT_ALIGNED(m, (count) * bytes);                                                           \
         k.bits &= (1u << (count)) - 1;                                                                    \
-        lrb_elements e;                                                                                   \
-        lanes_down_##suffix(e.bytes, a.lanes, down);                                                      \
+        const lrb_elements e = lrb_down_elements_##suffix(c, a.lanes, down);                              \
         const lrb_places p = lrb_places_repeated(bytes, 16);                                              \
         lrb_write_places(&p, k.bits, m.host, bytes, &e);                                                  \
         lrb_emit_masked(c, LRB_OP_store_down_##suffix, lrb_form_of_bytes((count) * bytes), k, LRB_BASE_FROM(m), \

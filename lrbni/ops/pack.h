@@ -45,8 +45,7 @@ LRB_INLINE uint32_t lrb_stream_address(uint32_t address, lrb_stream_part part)
         LRB_ASSERT_ALIGNED(m, bytes);                                                                     \
         const lrb_places p = lrb_places_packed(bytes, k.bits & LRB_LANES_##suffix);                       \
         const uint32_t lanes = lrb_stream_lanes(&p, k.bits & LRB_LANES_##suffix, m.address - back, part); \
-        lrb_elements e;                                                                                   \
-        lanes_down_##suffix(e.bytes, a.lanes, down);                                                      \
+        const lrb_elements e = lrb_down_elements_##suffix(c, a.lanes, down);                              \
         lrb_write_places(&p, lanes, m.host - back, bytes, &e);                                            \
         LRB_EMIT_MASKED_##suffix(c, op, lrb_form_of_line(lanes), lrb_moved(k, lanes), LRB_BASE_FROM(m), LRB_INDEX_FROM(m), \
                                  LRB_FROM(a), lrb_stream_address(m.address, part));                       \

@@ -3,7 +3,7 @@
 #ifndef LRBNI_OPS_PLACES_H
 #define LRBNI_OPS_PLACES_H
 
-#include "lrbni/ops/forms.h"
+#include "lrbni/ops/control.h"
 
 /* Where each lane's element lies, in bytes from the op's address. */
 typedef struct lrb_places {
@@ -75,6 +75,27 @@ LRB_INLINE void lrb_write_places(const lrb_places *p, uint32_t k, unsigned char 
         memcpy(host + p->at[i], e->bytes + bytes * i, bytes);
     }
 }
+
+/* The elements of a register, converted as the state of the machine has it. */
+LRB_INLINE lrb_elements lrb_down_elements_ps(lrb_ctx *c, lrb_f32x16 a, lrb_down_ps down)
+{
+    lrb_elements e;
+    lanes_down_in_mode_ps(e.bytes, down == LRB_DOWN_PS_none ? a : LRB_READ(c, ps, a), down, (lrb_rounding)LRB_STATE(c).rounding);
+    return e;
+}
+
+#define LRB_DOWN_ELEMENTS(suffix, vector)                                                                   \
+    LRB_INLINE lrb_elements lrb_down_elements_##suffix(lrb_ctx *c, lrb_##vector a, lrb_down_##suffix down)  \
+    {                                                                                                       \
+        lrb_elements e;                                                                                     \
+        (void)c;                                                                                            \
+        lanes_down_##suffix(e.bytes, a, down);                                                              \
+        return e;                                                                                           \
+    }
+LRB_DOWN_ELEMENTS(pi, i32x16)
+LRB_DOWN_ELEMENTS(pd, f64x8)
+LRB_DOWN_ELEMENTS(pq, i64x8)
+#undef LRB_DOWN_ELEMENTS
 
 /* The event's mask of the lanes that are moved, made from k. */
 LRB_INLINE lrb_k16 lrb_moved(lrb_k16 k, uint32_t lanes)

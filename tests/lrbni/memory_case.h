@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 
+#define LRB_CONTROL 1
 #include "lrbni/conversions.h"
 #include "tests/lrbni/case.h"
 
@@ -23,6 +24,7 @@ typedef struct memory_case {
     uint32_t k; /* in, and out where the op changes it */
     int conversion;
     unsigned scale;
+    ref_control control; /* state of the machine */
     alignas(64) uint32_t lanes[16], old[16], index[16];
     uint32_t out[16];
 } memory_case;
@@ -90,14 +92,14 @@ static uint64_t memory_up(const memory_row *row, int conversion, const unsigned 
     return bits;
 }
 
-static void memory_down(const memory_row *row, int conversion, uint64_t lane, unsigned char *element)
+static void memory_down(const memory_row *row, const memory_case *t, uint64_t lane, unsigned char *element)
 {
     if (row->wide)
         memcpy(element, &lane, 8);
     else if (row->integer)
-        ref_store_down_pi(conversion, (uint32_t)lane, element);
+        ref_store_down_pi(t->conversion, (uint32_t)lane, element);
     else
-        ref_store_down_ps(conversion, (uint32_t)lane, element);
+        ref_down_in_state(t->control, t->conversion, (uint32_t)lane, element);
 }
 
 static int memory_element_bytes(const memory_row *row, int conversion)
@@ -171,7 +173,7 @@ static void memory_expect(const memory_row *row, const memory_case *t, const mem
             continue;
         unsigned char *element = b->expected + (t->m.host + p->at[i] - b->page);
         if (row->store)
-            memory_down(row, t->conversion, case_get(t->lanes, row->wide, i), element);
+            memory_down(row, t, case_get(t->lanes, row->wide, i), element);
         else
             case_set(expected, row->wide, i, memory_up(row, t->conversion, element));
     }
@@ -216,6 +218,7 @@ static void memory_check(const memory_row *row, memory_case *t, memory_block *b)
     memory_expect(row, t, &p, b, expected);
     memcpy(t->out, t->old, sizeof t->out);
     lrb_ctx_begin(t->c);
+    t->c->control = (lrb_control){(uint8_t)t->control.rounding, t->control.flush_to_zero, t->control.denormals_are_zero};
     row->run(t);
     if (memcmp(t->out, expected, sizeof expected) != 0)
         for (int i = 0; i < 16; i++)
@@ -245,7 +248,13 @@ static void memory_indices(memory_case *t, int bytes, base_random *random)
         t->index[i] = (uint32_t)(step * ((int)memory_below(random, (unsigned)places) - places / 2));
 }
 
-/** Drive a row: every conversion under no mask and under every mask, `rounds` times. */
+static ref_control memory_state(base_random *random)
+{
+    const unsigned state = memory_below(random, 16);
+    return (ref_control){.rounding = state % 4, .flush_to_zero = state / 4 % 2, .denormals_are_zero = state / 8};
+}
+
+/** Drive a row: every conversion under no mask and under every mask, `rounds` times, half of them in another state of the machine. */
 static __attribute__((unused)) void memory_drive(lrb_ctx *c, const memory_row *row, int rounds)
 {
     memory_block *b = memory_block_create(60 + row->op);
@@ -256,6 +265,7 @@ static __attribute__((unused)) void memory_drive(lrb_ctx *c, const memory_row *r
                 const int bytes = memory_element_bytes(row, t.conversion);
                 t.masked = mask >= 0;
                 t.k = mask < 0 ? 0 : mask_number(mask, &b->random);
+                t.control = memory_below(&b->random, 2) ? (ref_control){0} : memory_state(&b->random);
                 for (int i = 0; i < 16; i++) {
                     t.lanes[i] = random_bits(&b->random);
                     t.old[i] = 0x7fa5c300u + (uint32_t)i;

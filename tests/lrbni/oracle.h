@@ -145,4 +145,7 @@ uint64_t ref_fused(bool wide, ref_control control, ref_sources s);
 uint64_t ref_product(bool wide, ref_control control, uint64_t x, uint64_t y);
 uint64_t ref_sum(bool wide, ref_control control, uint64_t x, uint64_t z, bool negate_x, bool negate_z);
 
+/** ref_store_down_ps in a state of the machine: its rounding mode is that of halves and integers. */
+void ref_down_in_state(ref_control control, int down, uint32_t lane, unsigned char *element);
+
 #endif

@@ -124,8 +124,10 @@ static fixed fixed_of(uint32_t bits, uint32_t most)
     return f;
 }
 
-/* To an integer in [-least, most]: halves to even, or, as Direct3D has it, away from zero. */
-static int64_t rounded(uint32_t bits, uint32_t scale, int64_t least, int64_t most, bool even)
+enum { EVEN, DOWN, UP, CHOP, AWAY }; /* the modes of the machine by their numbers; halves away from zero, as Direct3D has it */
+
+/* To an integer in [least, most]. */
+static int64_t rounded(uint32_t bits, uint32_t scale, int64_t least, int64_t most, int mode)
 {
     fixed f = fixed_of(bits, scale == 1 ? 65536 : 1); /* a norm is in [-1, 1] */
     if (f.nan)
@@ -133,14 +135,16 @@ static int64_t rounded(uint32_t bits, uint32_t scale, int64_t least, int64_t mos
     const uint64_t one = UINT64_C(1) << 45;
     const uint64_t product = f.units * scale, whole = product / one, rest = product % one;
     uint64_t result = whole;
-    if (rest > one / 2 || (rest == one / 2 && (f.inexact || !even || whole % 2)))
-        result++;
+    if (mode == EVEN || mode == AWAY)
+        result += rest > one / 2 || (rest == one / 2 && (f.inexact || mode == AWAY || whole % 2));
+    else if (rest || f.inexact)
+        result += mode == (f.negative ? DOWN : UP);
     int64_t value = f.negative ? -(int64_t)result : (int64_t)result;
     return value < least ? least : value > most ? most : value;
 }
 
 /* The half below or at |a|, and whether a next one is nearer. */
-static uint32_t half(uint32_t bits, bool nearest)
+static uint32_t half(uint32_t bits, int mode)
 {
     const uint32_t sign = bits >> 31 << 15;
     bits %= 0x80000000u;
@@ -156,8 +160,8 @@ static uint32_t half(uint32_t bits, bool nearest)
     }
     if (bits == 0x7f800000u)
         return sign | 0x7c00;
-    if (!nearest)
-        return sign | low;
+    if (mode != EVEN)
+        return sign | (mode == (sign ? DOWN : UP) && small_float(low, 10) != bits ? high : low);
     float value, below, above;
     uint32_t below_bits = small_float(low, 10), above_bits = high == 0x7c00 ? 0x47800000u : small_float(high, 10); /* 2^16 */
     memcpy(&value, &bits, sizeof value);
@@ -173,26 +177,33 @@ static void put(unsigned char *element, unsigned bytes, uint32_t value)
         element[i] = (unsigned char)(value % 256);
 }
 
-static uint32_t down_ps(lrb_down_ps down, uint32_t a)
+static uint32_t down_ps(lrb_down_ps down, uint32_t a, int mode)
 {
     switch (down) {
-    case LRB_DOWN_PS_float16: return half(a, true);
-    case LRB_DOWN_PS_float16_rz: return half(a, false);
-    case LRB_DOWN_PS_uint8: return (uint32_t)rounded(a, 1, 0, 255, true);
-    case LRB_DOWN_PS_sint8: return (uint32_t)rounded(a, 1, -128, 127, true);
-    case LRB_DOWN_PS_unorm8: return (uint32_t)rounded(a, 255, 0, 255, false);
-    case LRB_DOWN_PS_snorm8: return (uint32_t)rounded(a, 127, -127, 127, false);
-    case LRB_DOWN_PS_uint16: return (uint32_t)rounded(a, 1, 0, 65535, true);
-    case LRB_DOWN_PS_sint16: return (uint32_t)rounded(a, 1, -32768, 32767, true);
-    case LRB_DOWN_PS_unorm16: return (uint32_t)rounded(a, 65535, 0, 65535, false);
-    case LRB_DOWN_PS_snorm16: return (uint32_t)rounded(a, 32767, -32767, 32767, false);
+    case LRB_DOWN_PS_float16: return half(a, mode);
+    case LRB_DOWN_PS_float16_rz: return half(a, CHOP);
+    case LRB_DOWN_PS_uint8: return (uint32_t)rounded(a, 1, 0, 255, mode);
+    case LRB_DOWN_PS_sint8: return (uint32_t)rounded(a, 1, -128, 127, mode);
+    case LRB_DOWN_PS_unorm8: return (uint32_t)rounded(a, 255, 0, 255, AWAY);
+    case LRB_DOWN_PS_snorm8: return (uint32_t)rounded(a, 127, -127, 127, AWAY);
+    case LRB_DOWN_PS_uint16: return (uint32_t)rounded(a, 1, 0, 65535, mode);
+    case LRB_DOWN_PS_sint16: return (uint32_t)rounded(a, 1, -32768, 32767, mode);
+    case LRB_DOWN_PS_unorm16: return (uint32_t)rounded(a, 65535, 0, 65535, AWAY);
+    case LRB_DOWN_PS_snorm16: return (uint32_t)rounded(a, 32767, -32767, 32767, AWAY);
     default: return a;
     }
 }
 
+void ref_down_in_state(ref_control control, int down, uint32_t lane, unsigned char *element)
+{
+    if (control.denormals_are_zero && down != LRB_DOWN_PS_none && lane / 0x800000 % 256 == 0)
+        lane -= lane % 0x800000;
+    put(element, lrb_downs[down].bytes, down_ps((lrb_down_ps)down, lane, control.rounding));
+}
+
 void ref_store_down_ps(int down, uint32_t lane, unsigned char *element)
 {
-    put(element, lrb_downs[down].bytes, down_ps((lrb_down_ps)down, lane));
+    ref_down_in_state((ref_control){0}, down, lane, element);
 }
 
 void ref_store_down_pi(int down, uint32_t lane, unsigned char *element)

@@ -79,6 +79,25 @@ static void check_down(int down, uint32_t a)
         fail_msg("down %s %s of %08x: got %x, expected %x", lrb_downs[down].lanes, lrb_downs[down].id, a, got, expected);
 }
 
+/* In the other rounding modes of the machine. */
+static void check_modes(lrb_down_ps down, uint32_t a)
+{
+    const uint32_t ones = lrb_downs[down].bytes == 1 ? 0xff : 0xffff;
+    for (int mode = LRB_RN; mode <= LRB_RZ; mode++) {
+        unsigned char element[4] = {0};
+        ref_down_in_state((ref_control){.rounding = mode}, (int)down, a, element);
+        const uint32_t got = lrb_down_ps_in_mode(down, a, (lrb_rounding)mode) & ones, expected = element[0] + 256u * element[1];
+        if (got != expected)
+            fail_msg("down %s of %08x in mode %d: got %x, expected %x", lrb_downs[down].id, a, mode, got, expected);
+    }
+}
+
+static bool has_modes(int down)
+{
+    return down == LRB_DOWN_PS_float16 || down == LRB_DOWN_PS_uint8 || down == LRB_DOWN_PS_sint8 || down == LRB_DOWN_PS_uint16 ||
+           down == LRB_DOWN_PS_sint16;
+}
+
 static uint32_t bits_of(double value)
 {
     return lrb_float_bits((float)value);
@@ -91,6 +110,8 @@ static void check_around(int down, double value)
     for (uint32_t near = bits > 2 ? bits - 2 : 0; near <= bits + 2; near++) {
         check_down(down, near);
         check_down(down, near ^ 0x80000000u);
+        if (has_modes(down))
+            check_modes((lrb_down_ps)down, near), check_modes((lrb_down_ps)down, near ^ 0x80000000u);
     }
 }
 
@@ -119,8 +140,11 @@ static void down__boundaries_and_random__as_references(void **state)
     (void)state;
     base_random random = {.state = 66};
     for (int down = 0; down < LRB_DOWN_PS_COUNT + LRB_DOWN_PI_COUNT; down++) {
-        for (int i = 0; i < BOUNDARY_BITS; i++)
+        for (int i = 0; i < BOUNDARY_BITS; i++) {
             check_down(down, boundary_bits[i]);
+            if (has_modes(down))
+                check_modes((lrb_down_ps)down, boundary_bits[i]);
+        }
         for (uint32_t a = 0; a < 70000; a++)
             check_down(down, a), check_down(down, 0u - a);
         for (int n = 0; n < 300000; n++)

@@ -3,6 +3,7 @@
 #ifndef LRBNI_HOST_COMMON_CONVERSIONS_H
 #define LRBNI_HOST_COMMON_CONVERSIONS_H
 
+#include <stdbool.h>
 #include <string.h>
 
 #include "lrbni/conversions.h"
@@ -79,6 +80,24 @@ static inline void lanes_down_ps(void *m, lrb_f32x16 a, lrb_down_ps down)
 #define DOWN_PS(id, ...) case LRB_DOWN_PS_##id: lanes_down_ps_##id(m, a); break;
 #include "lrbni/conversions.def"
     default: break;
+    }
+}
+
+/* The same in a rounding mode of the machine. */
+static inline void lanes_down_in_mode_ps(void *m, lrb_f32x16 a, lrb_down_ps down, lrb_rounding mode)
+{
+    const bool looks = down == LRB_DOWN_PS_float16 || down == LRB_DOWN_PS_uint8 || down == LRB_DOWN_PS_sint8 ||
+                       down == LRB_DOWN_PS_uint16 || down == LRB_DOWN_PS_sint16;
+    if (mode == LRB_RN || !looks) {
+        lanes_down_ps(m, a, down);
+        return;
+    }
+    uint32_t lanes[16];
+    const unsigned bytes = lrb_down_ps_bytes(down);
+    lanes_store_ps(lanes, a);
+    for (unsigned i = 0; i < 16; i++) {
+        uint32_t element = lrb_down_ps_in_mode(down, lanes[i], mode);
+        memcpy((unsigned char *)m + bytes * i, &element, bytes);
     }
 }
 
