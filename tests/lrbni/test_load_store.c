@@ -122,7 +122,7 @@ static void rows__every_form_mask_and_conversion__as_references(void **state)
 }
 
 /* S3_UP(ps, PS, mov_ps): the formats that S3 has, as last source of a move, at the end of a block of their size */
-#define S3_UP(suffix, TYPE, op)                                                                                  \
+#define S3_UP(suffix, TYPE, move)                                                                                \
     static void s3_##suffix##__every_format__as_references(void **state)                                         \
     {                                                                                                            \
         memory_block *b = memory_block_create(67);                                                               \
@@ -133,11 +133,11 @@ static void rows__every_form_mask_and_conversion__as_references(void **state)
             const lrb_mem m = {.host = b->page + MEMORY_PAGE - 16 * bytes, .address = MEMORY_ADDRESS};           \
             uint32_t lanes[16];                                                                                  \
             lrb_ctx_begin(*state);                                                                               \
-            lanes_store_##suffix(lanes, lrb_##op##_s3(*state, lrb_from_##suffix(m, (lrb_up_##suffix)up)).lanes); \
+            lanes_store_##suffix(lanes, lrb_##move##_s3(*state, lrb_from_##suffix(m, (lrb_up_##suffix)up)).lanes); \
             for (unsigned i = 0; i < 16; i++)                                                                    \
                 assert_int_equal(lanes[i], ref_load_up_##suffix(up, m.host + bytes * i));                        \
             const lrb_event *e = &((const lrb_ctx *)*state)->events[0];                                          \
-            assert_int_equal(e->op, LRB_OP_##op | LRB_FORM_MEMORY | (bytes == 1   ? LRB_FORM_16_BYTES            \
+            assert_int_equal(e->op, LRB_OP_##move | LRB_FORM_MEMORY | (bytes == 1   ? LRB_FORM_16_BYTES            \
                                                                      : bytes == 2 ? LRB_FORM_32_BYTES : 0));     \
             assert_int_equal(e->aux, MEMORY_ADDRESS);                                                            \
         }                                                                                                        \
