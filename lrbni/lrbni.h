@@ -6,11 +6,15 @@
 #include "lrbni/ops/carry.h"
 #include "lrbni/ops/compare.h"
 #include "lrbni/ops/control.h"
+#include "lrbni/ops/gather.h"
 #include "lrbni/ops/hints.h"
 #include "lrbni/ops/integer.h"
+#include "lrbni/ops/load_convert.h"
 #include "lrbni/ops/load_store.h"
 #include "lrbni/ops/move.h"
+#include "lrbni/ops/pack.h"
 #include "lrbni/ops/scalar.h"
+#include "lrbni/ops/scalar_memory.h"
 #include "lrbni/ops/shuffle.h"
 
 #endif

@@ -41,10 +41,11 @@ typedef struct op_price {
     uint8_t consumer[MAX_SOURCES]; /* sim_consumer of each source */
     uint32_t partners; /* set of classes: ops of these may join this one in V; empty if it cannot issue in U beside another */
     uint32_t words;    /* of its line that it touches, from its address on; 0: those of the mask */
+    uint32_t place;    /* bits of the address, in words, that move `words`: 15, or 0 where they are the whole line */
     uint8_t class_id;
     uint8_t flags;     /* PRICE_...; LASTING: busy for several cycles, or blocking: rare, and kept out of the common path */
     uint16_t lanes;    /* all ones for a vector op */
-    uint64_t pad[2];
+    uint32_t pad[3];
 } op_price;
 _Static_assert(sizeof(op_price) == 64, "a power of two");
 
@@ -146,7 +147,8 @@ static void price_op(sim_issue *s, lrb_op_id id, unsigned form)
     consumers_of(id, form, p->consumer);
     p->class_id = (uint8_t)k;
     p->partners = partners_of(s->machine, k);
-    p->words = is_vector ? (1u << lrb_form_bytes(form) / 4) - 1 : 1;
+    p->words = lrb_form_bytes(form) || is_vector ? (1u << lrb_form_bytes(form) / 4) - 1 : 1;
+    p->place = lrb_form_bytes(form) == 64 ? 0 : 15;
     p->lanes = is_vector ? 0xffff : 0;
     p->flags = (uint8_t)((shape == LRB_SHAPE_MARK ? PRICE_MARKER : 0) | (reads_memory ? PRICE_READS : 0) |
                          (is_store ? PRICE_STORE : 0) | (cost->throughput > 2 || cost->blocking ? PRICE_LASTING : 0));
@@ -211,7 +213,7 @@ void sim_issue_begin(sim_issue *s)
 /* The 32-bit words of its line that an access touches. */
 static inline uint32_t words_of(const op_price *p, const lrb_event *e)
 {
-    return p->words ? p->words << e->aux / 4 % 16 : e->mask;
+    return p->words ? p->words << (e->aux / 4 & p->place) : e->mask;
 }
 
 static inline store_line *line_of(sim_issue *s, const lrb_event *e)

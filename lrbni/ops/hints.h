@@ -11,7 +11,14 @@
         lrb_emit(c, LRB_OP_##id, 0, 0xffff, LRB_BASE_FROM(m), LRB_INDEX_FROM(m), 0, 0, m.address);        \
     }
 LRB_CACHE_HINT(prefetch1)
+LRB_CACHE_HINT(prefetch1_ex)
+LRB_CACHE_HINT(prefetch1_nt)
+LRB_CACHE_HINT(prefetch1_ex_nt)
+LRB_CACHE_HINT(prefetch1_miss)
 LRB_CACHE_HINT(prefetch2)
+LRB_CACHE_HINT(prefetch2_ex)
+LRB_CACHE_HINT(prefetch2_nt)
+LRB_CACHE_HINT(prefetch2_ex_nt)
 LRB_CACHE_HINT(evict1)
 LRB_CACHE_HINT(evict2)
 #undef LRB_CACHE_HINT

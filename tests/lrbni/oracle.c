@@ -65,16 +65,6 @@ int ref_shuf128x32_ps(int lane, unsigned blocks, unsigned words)
     return (int)(block_of[group] * 4 + word_of[word]);
 }
 
-static int word_of_memory(int lane, ref_load_form form)
-{
-    return form == REF_LOAD_1TO16 ? 0 : form == REF_LOAD_4TO16 ? lane % 4 : lane;
-}
-
-int ref_load_ps(int lane, ref_load_form form) { return word_of_memory(lane, form); }
-int ref_load_pi(int lane, ref_load_form form) { return word_of_memory(lane, form); }
-int ref_store_ps(int word) { return word; }
-int ref_store_pi(int word) { return word; }
-
 /* Mask registers */
 uint32_t ref_kand(uint32_t a, uint32_t b) { return (uint32_t)bit_by_bit(a, b, 16, AND); }
 uint32_t ref_kandn(uint32_t a, uint32_t b) { return (uint32_t)bit_by_bit(a, b, 16, NOT_A_AND_B); }
@@ -217,20 +207,6 @@ uint32_t ref_lea(uint32_t base, uint64_t index, unsigned scale, int32_t displace
     return (uint32_t)add_bits(address, (uint64_t)(int64_t)displacement, 0, 32);
 }
 
-/* Digits of base 256, the lowest first. */
-uint64_t ref_load32(const unsigned char *bytes)
-{
-    return bytes[0] + 256 * (bytes[1] + 256 * (bytes[2] + UINT64_C(256) * bytes[3]));
-}
-
-uint64_t ref_load16(const unsigned char *bytes) { return bytes[0] + 256u * bytes[1]; }
-
-void ref_store32(unsigned char *bytes, uint64_t a)
-{
-    for (int i = 0; i < 4; i++, a /= 256)
-        bytes[i] = (unsigned char)(a % 256);
-}
-
 /* Flags from the difference in wider integers: of the unsigned values, and of the signed ones. */
 ref_flags ref_cmp(uint64_t a, uint64_t b)
 {
@@ -258,9 +234,5 @@ bool ref_jmp(void) { return true; }
 uint32_t ref_phase(uint32_t number) { return number; }
 uint32_t ref_region(uint32_t number) { return number; }
 
-uint32_t ref_prefetch1(uint32_t address) { return address; }
-uint32_t ref_prefetch2(uint32_t address) { return address; }
-uint32_t ref_evict1(uint32_t address) { return address; }
-uint32_t ref_evict2(uint32_t address) { return address; }
 uint32_t ref_delay(uint64_t a) { return (uint32_t)(a % 4294967296u); }
 uint32_t ref_spflt(uint64_t a) { return (void)a, 0; }

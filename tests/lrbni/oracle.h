@@ -35,6 +35,8 @@ typedef enum ref_condition { REF_ZERO, REF_NOT_ZERO, REF_BELOW, REF_LESS, REF_CO
 /* Where a load finds lane i. */
 typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_LOAD_FORMS } ref_load_form;
 
+enum { REF_NOWHERE = -1000 };
+
 /* One lane of a vector op: sources in the order of the ISA, d the old destination. */
 #define REF_V_V(id) uint32_t ref_##id(uint32_t b);
 #define REF_VI_V(id) uint32_t ref_##id(uint32_t b);
@@ -56,8 +58,46 @@ typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_
 #define REF_V_VII(id) int ref_##id(int lane, unsigned blocks, unsigned words);
 #define REF_V_M(id) int ref_##id(int lane, ref_load_form form);
 #define REF_VI_M(id) int ref_##id(int lane, ref_load_form form);
+#define REF_VD_M(id) int ref_##id(int lane, ref_load_form form);
+#define REF_VQ_M(id) int ref_##id(int lane, ref_load_form form);
 #define REF_M_V(id) int ref_##id(int word);
 #define REF_M_VI(id) int ref_##id(int word);
+#define REF_M_VD(id) int ref_##id(int word);
+#define REF_M_VQ(id) int ref_##id(int word);
+#define REF_ML_V(id) int ref_##id(int word);
+#define REF_ML_VD(id) int ref_##id(int word);
+/* The lane that an element becomes, by the number of the conversion in lrbni/conversions.def; the element that a lane becomes. */
+#define REF_V_MC(id) uint32_t ref_##id(int up, const unsigned char *element);
+#define REF_VI_MC(id) uint32_t ref_##id(int up, const unsigned char *element);
+#define REF_MC_V(id) void ref_##id(int down, uint32_t lane, unsigned char *element);
+#define REF_MC_VI(id) void ref_##id(int down, uint32_t lane, unsigned char *element);
+/* Where a lane's element of a stream is, in bytes from the op's address; REF_NOWHERE: the op does not move the lane. */
+#define REF_STREAM(id) int ref_##id(uint32_t k, uint32_t address, int bytes, int lane);
+#define REF_V_MS(id) REF_STREAM(id)
+#define REF_VI_MS(id) REF_STREAM(id)
+#define REF_VD_MS(id) REF_STREAM(id)
+#define REF_VQ_MS(id) REF_STREAM(id)
+#define REF_MS_V(id) REF_STREAM(id)
+#define REF_MS_VI(id) REF_STREAM(id)
+#define REF_MS_VD(id) REF_STREAM(id)
+#define REF_MS_VQ(id) REF_STREAM(id)
+#define REF_V_MSC(id) REF_STREAM(id)
+#define REF_VI_MSC(id) REF_STREAM(id)
+#define REF_MSC_V(id) REF_STREAM(id)
+#define REF_MSC_VI(id) REF_STREAM(id)
+/* The lanes that one execution completes, by the addresses of all. */
+#define REF_EXECUTION(id) uint32_t ref_##id(uint32_t k, const uint32_t addresses[16]);
+#define REF_V_MVI(id) REF_EXECUTION(id)
+#define REF_VI_MVI(id) REF_EXECUTION(id)
+#define REF_VD_MVI(id) REF_EXECUTION(id)
+#define REF_VQ_MVI(id) REF_EXECUTION(id)
+#define REF_MVI_V(id) REF_EXECUTION(id)
+#define REF_MVI_VI(id) REF_EXECUTION(id)
+#define REF_MVI_VD(id) REF_EXECUTION(id)
+#define REF_MVI_VQ(id) REF_EXECUTION(id)
+#define REF_H_MVI(id) REF_EXECUTION(id)
+/* The lanes that the hint is about. */
+#define REF_H_VIM(id) REF_EXECUTION(id)
 /* Masks and general registers. */
 #define REF_K_KK(id) uint32_t ref_##id(uint32_t a, uint32_t b);
 #define REF_K_K(id) uint32_t ref_##id(uint32_t a);
@@ -136,5 +176,8 @@ typedef struct ref_sources {
 uint64_t ref_fused(bool wide, ref_control control, ref_sources s);
 uint64_t ref_product(bool wide, ref_control control, uint64_t x, uint64_t y);
 uint64_t ref_sum(bool wide, ref_control control, uint64_t x, uint64_t z, bool negate_x, bool negate_z);
+
+/** ref_store_down_ps in a state of the machine: its rounding mode is that of halves and integers. */
+void ref_down_in_state(ref_control control, int down, uint32_t lane, unsigned char *element);
 
 #endif

@@ -1,4 +1,6 @@
 /* Compiled with PROGRAM_RUN as the name of the entry, for one back end, at one level. */
+#include <string.h>
+
 #include "tests/lrbni/program.h"
 
 #define LRB_SOURCE 1
@@ -139,17 +141,6 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define STEP_VI_XX(id) BINARY(id, lrb_castpi_ps, DI, AI, S3I_WHOLE)
 #define STEP_VI_XXI(id) \
     D = lrb_castpi_ps(MASKED ? lrb_mask_##id##_s3(c, DI, K, AI, S3I_WHOLE, N % 16) : lrb_##id##_s3(c, AI, S3I_WHOLE, N % 16));
-#define LOAD(suffix, old)                                                               \
-    FORM % 4 == 0   ? lrb_load_##suffix(c, place(m, 64, 64))                            \
-    : FORM % 4 == 1 ? lrb_load_1to16_##suffix(c, place(m, 4, 4))                        \
-    : FORM % 4 == 2 ? lrb_load_4to16_##suffix(c, place(m, 16, 16))                      \
-                    : lrb_mask_load_##suffix(c, old, K, place(m, 64, 64))
-#define STEP_V_M(id) D = LOAD(ps, D);
-#define STEP_VI_M(id) D = lrb_castpi_ps(LOAD(pi, DI));
-#define STEP_M_V(id) \
-    if (MASKED) lrb_mask_##id(c, place(m, 64, 64), K, A); else lrb_##id(c, place(m, 64, 64), A);
-#define STEP_M_VI(id) \
-    if (MASKED) lrb_mask_##id(c, place(m, 64, 64), K, AI); else lrb_##id(c, place(m, 64, 64), AI);
 #define STEP_K_VV(id) COMPARE(id, A, S3)
 #define STEP_KI_VV(id) COMPARE(id, AI, S3I)
 #define STEP_KD_VV(id) COMPARE(id, AD, S3D)
@@ -162,8 +153,6 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define STEP_R_RR(id) RD = lrb_##id(c, RA, RB);
 #define STEP_R_RI(id) RD = lrb_##id(c, RA, m->code[4] % 64);
 #define STEP_P_PR(id) m->p = lrb_##id(c, m->memory, lrb_imm(m->code[5]), 1u << (m->code[4] & 1), m->code[6]);
-#define STEP_R_M(id) RD = lrb_##id(c, place(m, 1, 4));
-#define STEP_M_R(id) lrb_##id(c, place(m, 1, 4), RA);
 #define STEP_F_RR(id) m->flags = lrb_##id(c, RA, RB);
 #define STEP_B_F(id) \
     if (m->code[2] & 1 ? lrb_jl(c, m->flags) : lrb_jz(c, m->flags)) m->skip = 1;
@@ -176,9 +165,10 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define STEP_B(id) lrb_##id(c);
 #define STEP_C_M(id) lrb_##id(c, place(m, 1, 4));
 #define STEP_M_C(id) lrb_##id(c, place(m, 1, 4));
-#define STEP_H_M(id) lrb_##id(c, place(m, 1, 1));
 #define STEP_H_R(id) lrb_##id(c, RA);
 #define STEP_MARK(id) lrb_##id(c, m->code[2]);
+
+#include "tests/lrbni/program_memory.h"
 
 /* One function an op, none of them inlined: compilers stay fast however many ops there are. */
 #define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) \

@@ -63,6 +63,102 @@
 #ifndef ROW_M_VI
 #define ROW_M_VI(id)
 #endif
+#ifndef ROW_VD_M
+#define ROW_VD_M(id)
+#endif
+#ifndef ROW_VQ_M
+#define ROW_VQ_M(id)
+#endif
+#ifndef ROW_M_VD
+#define ROW_M_VD(id)
+#endif
+#ifndef ROW_M_VQ
+#define ROW_M_VQ(id)
+#endif
+#ifndef ROW_ML_V
+#define ROW_ML_V(id)
+#endif
+#ifndef ROW_ML_VD
+#define ROW_ML_VD(id)
+#endif
+#ifndef ROW_V_MC
+#define ROW_V_MC(id)
+#endif
+#ifndef ROW_VI_MC
+#define ROW_VI_MC(id)
+#endif
+#ifndef ROW_MC_V
+#define ROW_MC_V(id)
+#endif
+#ifndef ROW_MC_VI
+#define ROW_MC_VI(id)
+#endif
+#ifndef ROW_V_MS
+#define ROW_V_MS(id)
+#endif
+#ifndef ROW_VI_MS
+#define ROW_VI_MS(id)
+#endif
+#ifndef ROW_VD_MS
+#define ROW_VD_MS(id)
+#endif
+#ifndef ROW_VQ_MS
+#define ROW_VQ_MS(id)
+#endif
+#ifndef ROW_MS_V
+#define ROW_MS_V(id)
+#endif
+#ifndef ROW_MS_VI
+#define ROW_MS_VI(id)
+#endif
+#ifndef ROW_MS_VD
+#define ROW_MS_VD(id)
+#endif
+#ifndef ROW_MS_VQ
+#define ROW_MS_VQ(id)
+#endif
+#ifndef ROW_V_MSC
+#define ROW_V_MSC(id)
+#endif
+#ifndef ROW_VI_MSC
+#define ROW_VI_MSC(id)
+#endif
+#ifndef ROW_MSC_V
+#define ROW_MSC_V(id)
+#endif
+#ifndef ROW_MSC_VI
+#define ROW_MSC_VI(id)
+#endif
+#ifndef ROW_V_MVI
+#define ROW_V_MVI(id)
+#endif
+#ifndef ROW_VI_MVI
+#define ROW_VI_MVI(id)
+#endif
+#ifndef ROW_VD_MVI
+#define ROW_VD_MVI(id)
+#endif
+#ifndef ROW_VQ_MVI
+#define ROW_VQ_MVI(id)
+#endif
+#ifndef ROW_MVI_V
+#define ROW_MVI_V(id)
+#endif
+#ifndef ROW_MVI_VI
+#define ROW_MVI_VI(id)
+#endif
+#ifndef ROW_MVI_VD
+#define ROW_MVI_VD(id)
+#endif
+#ifndef ROW_MVI_VQ
+#define ROW_MVI_VQ(id)
+#endif
+#ifndef ROW_H_MVI
+#define ROW_H_MVI(id)
+#endif
+#ifndef ROW_H_VIM
+#define ROW_H_VIM(id)
+#endif
 #ifndef ROW_K_VV
 #define ROW_K_VV(id)
 #endif

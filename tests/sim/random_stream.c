@@ -64,7 +64,12 @@ static unsigned random_form(base_random *random, lrb_shape shape)
 {
     static const unsigned broadcasts[] = {0, LRB_FORM_4_BYTES, LRB_FORM_8_BYTES, LRB_FORM_16_BYTES, LRB_FORM_32_BYTES};
     unsigned broadcast = broadcasts[below(random, 5)];
-    if (shape == LRB_SHAPE_V_M || shape == LRB_SHAPE_VI_M)
+    const char *name = lrb_shape_table[shape].name;
+    if (shape == LRB_SHAPE_R_M || shape == LRB_SHAPE_M_R)
+        return below(random, 2) ? LRB_FORM_8_BYTES : 0;
+    if (strstr(name, "MS") || strstr(name, "MVI"))
+        return below(random, 4) ? LRB_FORM_LINE : 0;
+    if (lrb_shape_table[shape].access == LRB_ACCESS_LOAD || lrb_shape_table[shape].access == LRB_ACCESS_STORE)
         return broadcast;
     if (!takes_s3(shape))
         return LRB_FORM_REGISTER;
@@ -96,8 +101,8 @@ static lrb_event random_op(base_random *random, const flavour *f)
     if (is_vector && below(random, 3) == 0)
         e.mask = (uint16_t)(below(random, 2) ? base_random_bits(random) : 1u << below(random, 16));
     if (lrb_op_is_memory((lrb_op_id)id) || form & LRB_FORM_MEMORY) {
-        unsigned bytes = lrb_form_bytes(form) ? lrb_form_bytes(form) : is_vector ? 64 : 4;
-        e.aux = random_address(random, f, id == LRB_OP_load16 ? 2 : bytes);
+        unsigned bytes = form == LRB_FORM_LINE ? 1 : lrb_form_bytes(form) ? lrb_form_bytes(form) : is_vector ? 64 : 2;
+        e.aux = random_address(random, f, bytes);
     } else if (lrb_op_table[id].class_id == LRB_CLASS_branch) {
         e.mask = (uint16_t)below(random, 2);
         e.aux = below(random, 1000);
