@@ -4,6 +4,8 @@
 
 #include "lrbni/ops/arith.h"
 #include "lrbni/ops/compare.h"
+#include "lrbni/ops/convert.h"
+#include "lrbni/ops/exponent.h"
 #include "lrbni/ops/hints.h"
 #include "lrbni/ops/load_store.h"
 #include "lrbni/ops/move.h"

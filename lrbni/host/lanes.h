@@ -3,11 +3,11 @@
 #define LRBNI_HOST_LANES_H
 
 #if defined(LRB_HOST_AVX512)
-#include "lrbni/host/avx512/lanes64.h"
+#include "lrbni/host/avx512/convert.h"
 #elif defined(LRB_HOST_AVX2)
-#include "lrbni/host/avx2/lanes64.h"
+#include "lrbni/host/avx2/convert.h"
 #else
-#include "lrbni/host/portable/lanes64.h"
+#include "lrbni/host/portable/convert.h"
 #endif
 
 #endif
