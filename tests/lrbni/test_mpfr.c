@@ -1,5 +1,5 @@
 /* Everything that rounds against MPFR: all triples of the boundary list, and random ones. NaN results are compared as NaNs;
- * their bits are the matter of op/arith. */
+ * their bits are the matter of op/vector. */
 #include <mpfr.h>
 
 #include "tests/lrbni/case.h"
