@@ -23,11 +23,6 @@ typedef enum lrb_mantissa_sign {
     LRB_SIGN_NAN /* the source's, and NaN for what is below 0 */
 } lrb_mantissa_sign;
 
-static inline double lrb_quiet_f64(double x)
-{
-    return lrb_bits_double(lrb_double_bits(x) | LRB_NAN_QUIET64);
-}
-
 /** floor(log2(abs x)) of a finite double that is not 0. */
 static inline int lrb_exponent_of(double x)
 {
@@ -40,7 +35,7 @@ static inline int lrb_exponent_of(double x)
 static inline double lrb_f64_round(double x, lrb_rounding mode, lrb_adjust n)
 {
     if (x != x)
-        return lrb_quiet_f64(x);
+        return lrb_quiet_double(x);
     return fabs(x) >= 0x1p52 ? x : lrb_whole(x * lrb_power_of_two((int)n), mode) * lrb_power_of_two(-(int)n);
 }
 
@@ -52,7 +47,7 @@ static inline float lrb_f32_round(float x, lrb_rounding mode, lrb_adjust n)
 static inline double lrb_f64_getexp(double x)
 {
     if (x != x)
-        return lrb_quiet_f64(x);
+        return lrb_quiet_double(x);
     return x == 0 ? -HUGE_VAL : isinf(x) ? HUGE_VAL : (double)lrb_exponent_of(x);
 }
 
@@ -64,7 +59,7 @@ static inline float lrb_f32_getexp(float x)
 static inline double lrb_f64_getmant(double x, lrb_mantissa interval, lrb_mantissa_sign sign)
 {
     if (x != x)
-        return lrb_quiet_f64(x);
+        return lrb_quiet_double(x);
     if (sign == LRB_SIGN_NAN && x < 0)
         return lrb_bits_double(LRB_NAN_DEFAULT64);
     double m = 1.0;
@@ -119,13 +114,13 @@ static inline float lrb_f32_fixup(float d, float x, uint32_t table)
 /** The same, but a NaN in x is the result, made quiet. */
 static inline float lrb_f32_fixupnan(float d, float x, uint32_t table)
 {
-    return x != x ? lrb_bits_float(lrb_float_bits(x) | LRB_NAN_QUIET) : lrb_f32_fixup(d, x, table);
+    return x != x ? lrb_quiet_float(x) : lrb_f32_fixup(d, x, table);
 }
 
 static inline double lrb_f64_fixupnan(double d, double x, uint64_t table)
 {
     if (x != x)
-        return lrb_quiet_f64(x);
+        return lrb_quiet_double(x);
     unsigned action = (unsigned)table >> lrb_fixup_place(x) & 7;
     return action ? lrb_bits_double(lrb_fixup_f64[action]) : d;
 }

@@ -4,6 +4,7 @@
 
 #include "lrbni/ops/arith.h"
 #include "lrbni/ops/compare.h"
+#include "lrbni/ops/control.h"
 #include "lrbni/ops/convert.h"
 #include "lrbni/ops/exponent.h"
 #include "lrbni/ops/hints.h"

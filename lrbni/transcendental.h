@@ -73,7 +73,7 @@ static inline float lrb_f32_log2(float x)
 {
     uint32_t bits = lrb_float_bits(x);
     if (!(x > 0) || bits == 0x7f800000)
-        return x != x ? lrb_bits_float(bits | LRB_NAN_QUIET) : x < 0 ? lrb_bits_float(LRB_NAN_DEFAULT) : x == 0 ? -HUGE_VALF : x;
+        return x != x ? lrb_quiet_float(x) : x < 0 ? lrb_bits_float(LRB_NAN_DEFAULT) : x == 0 ? -HUGE_VALF : x;
     uint64_t wide = lrb_double_bits((double)x); /* no double is subnormal here */
     int64_t exponent = (int64_t)(wide >> 52) - 1023;
     uint64_t fraction = lrb_log2_fixed((uint32_t)(wide >> 29 & 0x007fffff) | 0x00800000);
@@ -90,7 +90,7 @@ static inline float lrb_f32_rcp23(float x)
 static inline float lrb_f32_rsqrt23(float x)
 {
     if (x != x || x < 0)
-        return x != x ? lrb_bits_float(lrb_float_bits(x) | LRB_NAN_QUIET) : lrb_bits_float(LRB_NAN_DEFAULT);
+        return x != x ? lrb_quiet_float(x) : lrb_bits_float(LRB_NAN_DEFAULT);
     return (float)(1.0 / sqrt((double)x));
 }
 

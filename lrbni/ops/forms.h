@@ -100,11 +100,13 @@
         return lrb_mask_##id##_s3(c, d, k, a, lrb_reg_##last(b));                                       \
     }
 
-/* LRB_COMPARE(cmplt_ps, ps): a mask from lanes_cmplt_ps; bits that k leaves out are 0 */
-#define LRB_COMPARE(id, suffix)                                                                           \
+/* LRB_COMPARE(cmplt_pi, pi): a mask from lanes_cmplt_pi; bits that k leaves out are 0 */
+#define LRB_COMPARE(id, suffix) LRB_MASK_RESULT(id, suffix, lanes_##id(a.lanes, b.lanes))
+/* LRB_MASK_RESULT(cmplt_pi, pi, lanes_cmplt_pi(a.lanes, b.lanes)): the same from any formula */
+#define LRB_MASK_RESULT(id, suffix, result)                                                                         \
     LRB_INLINE lrb_k16 lrb_##id##_s3(lrb_ctx *c, LRB_VECTOR_##suffix a, LRB_S3_##suffix b)                \
     {                                                                                                     \
-        lrb_k16 r = {.bits = lanes_##id(a.lanes, b.lanes)};                                               \
+        lrb_k16 r = {.bits = result};                                                                     \
         LRB_SET_FROM(r, lrb_emit(c, LRB_OP_##id, b.form, 0xffff, LRB_FROM(a), LRB_FROM(b), 0, 0, b.address)); \
         return r;                                                                                         \
     }                                                                                                     \
@@ -114,7 +116,7 @@
     }                                                                                                     \
     LRB_INLINE lrb_k16 lrb_mask_##id##_s3(lrb_ctx *c, lrb_k16 k, LRB_VECTOR_##suffix a, LRB_S3_##suffix b) \
     {                                                                                                     \
-        lrb_k16 r = {.bits = lanes_##id(a.lanes, b.lanes) & k.bits};                                      \
+        lrb_k16 r = {.bits = (result) & k.bits};                                                          \
         LRB_SET_FROM(r, LRB_EMIT_MASKED_##suffix(c, LRB_OP_##id, b.form, k, LRB_FROM(a), LRB_FROM(b), 0, b.address)); \
         return r;                                                                                         \
     }                                                                                                     \

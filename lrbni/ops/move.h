@@ -8,6 +8,21 @@ LRB_UNARY(mov_ps, ps, b.lanes)
 LRB_UNARY(mov_pi, pi, b.lanes)
 LRB_UNARY(mov_pd, pd, b.lanes)
 
+/* LRB_BLEND(blendm_ps, ps): lrb_blendm_ps(c, k, a, b), b in the lanes whose bit in k is 1, a in the others; all are written */
+#define LRB_BLEND(id, suffix)                                                                             \
+    LRB_INLINE LRB_VECTOR_##suffix lrb_##id##_s3(lrb_ctx *c, lrb_k16 k, LRB_VECTOR_##suffix a, LRB_S3_##suffix b) \
+    {                                                                                                     \
+        LRB_VECTOR_##suffix d = {.lanes = lanes_merge_##suffix(k.bits, a.lanes, b.lanes)};                \
+        LRB_SET_FROM(d, lrb_emit(c, LRB_OP_##id, b.form, 0xffff, LRB_FROM(a), LRB_FROM(b), LRB_FROM(k), 0, b.address)); \
+        return d;                                                                                         \
+    }                                                                                                     \
+    LRB_INLINE LRB_VECTOR_##suffix lrb_##id(lrb_ctx *c, lrb_k16 k, LRB_VECTOR_##suffix a, LRB_VECTOR_##suffix b) \
+    {                                                                                                     \
+        return lrb_##id##_s3(c, k, a, lrb_reg_##suffix(b));                                               \
+    }
+LRB_BLEND(blendm_ps, ps)
+LRB_BLEND(blendm_pd, pd)
+
 /** Block B(g) of the source, its words in the order W, becomes block g: two bits a choice, lowest first (0xe4: as is). */
 LRB_INLINE lrb_v16f lrb_shuf128x32_ps(lrb_ctx *c, lrb_v16f a, unsigned blocks, unsigned words)
 {

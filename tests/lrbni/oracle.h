@@ -15,6 +15,14 @@ typedef struct ref_flags {
     bool zero, carry, less;
 } ref_flags;
 
+/* The state of the machine that float ops depend on. */
+enum { REF_NEAREST, REF_DOWN, REF_UP, REF_TOWARDS_ZERO };
+
+typedef struct ref_control {
+    int rounding;
+    bool flush_to_zero, denormals_are_zero;
+} ref_control;
+
 /* The conditions that a conditional jump may ask for. */
 typedef enum ref_condition { REF_ZERO, REF_NOT_ZERO, REF_BELOW, REF_LESS, REF_CONDITIONS } ref_condition;
 
@@ -49,6 +57,14 @@ typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_
 #define REF_V_VV_I(id) uint32_t ref_##id(uint32_t d, uint32_t b, uint32_t table);
 #define REF_V_VVpi(id) uint32_t ref_##id(uint32_t d, uint32_t a, uint32_t b);
 #define REF_VD_VVpq(id) uint64_t ref_##id(uint64_t d, uint64_t a, uint64_t b);
+#define REF_VD_VV(id) uint64_t ref_##id(uint64_t a, uint64_t b);
+#define REF_VD_VVV(id) uint64_t ref_##id(uint64_t d, uint64_t a, uint64_t b);
+#define REF_KD_VV(id) bool ref_##id(uint64_t a, uint64_t b);
+/* With a mask bit, with the four lanes of S3's group, with a mask bit as second result. */
+#define REF_V_KVV(id) uint32_t ref_##id(bool k, uint32_t a, uint32_t b);
+#define REF_VD_KVV(id) uint64_t ref_##id(bool k, uint64_t a, uint64_t b);
+#define REF_V_VX(id) uint32_t ref_##id(uint32_t a, const uint32_t group[4]);
+#define REF_VK_VV(id) uint32_t ref_##id(uint32_t a, uint32_t b, bool *k);
 #define REF_K_VV(id) bool ref_##id(uint32_t a, uint32_t b);
 #define REF_KI_VV(id) bool ref_##id(uint32_t a, uint32_t b);
 /* The lane of the source that lane `lane` takes; the word of memory that it takes; the lane that word `word` receives. */
@@ -74,6 +90,9 @@ typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_
 /* Whether the jump is taken; the aux of a marker's event. */
 #define REF_B_F(id) bool ref_##id(ref_flags flags, ref_condition condition);
 #define REF_B(id) bool ref_##id(void);
+/* The state that `bytes` of memory give, and the other way. */
+#define REF_C_M(id) ref_control ref_##id(const unsigned char *bytes);
+#define REF_M_C(id) void ref_##id(unsigned char *bytes, ref_control control);
 /* The aux of a hint's event. */
 #define REF_H_M(id) uint32_t ref_##id(uint32_t address);
 #define REF_H_R(id) uint32_t ref_##id(uint64_t a);
@@ -85,7 +104,26 @@ typedef enum ref_load_form { REF_LOAD_FULL, REF_LOAD_1TO16, REF_LOAD_4TO16, REF_
 /** The source lane, within its group of four, of lane 0, 1, 2, 3 for each swizzle: dcba cdab badc aaaa bbbb cccc dddd dacb. */
 extern const int ref_swizzles[8][4];
 
-/** Whether the bits are a NaN's. */
+/** Whether the bits are a NaN's; of a double if `wide`. */
 bool ref_is_nan(uint32_t bits);
+static inline bool ref_is_nan_lane(bool wide, uint64_t bits)
+{
+    return wide ? (bits << 1) > UINT64_C(0xffe0000000000000) : ref_is_nan((uint32_t)bits);
+}
+
+/** Value of a float's or a double's bits, and the bits of a value that the format has. */
+double ref_value(bool wide, uint64_t bits);
+uint64_t ref_bits(bool wide, double d);
+
+/* x * y + z, each part negated or not. */
+typedef struct ref_sources {
+    uint64_t x, y, z;
+    bool negate_product, negate_addend;
+} ref_sources;
+
+/** Multiply-add, product and sum of floats or (`wide`) doubles in any state, rounded once. */
+uint64_t ref_fused(bool wide, ref_control control, ref_sources s);
+uint64_t ref_product(bool wide, ref_control control, uint64_t x, uint64_t y);
+uint64_t ref_sum(bool wide, ref_control control, uint64_t x, uint64_t z, bool negate_x, bool negate_z);
 
 #endif

@@ -2,6 +2,7 @@
 #include "tests/lrbni/program.h"
 
 #define LRB_SOURCE 1
+#define LRB_CONTROL 1
 #include "lrbni/lrbni.h"
 
 enum { MEMORY_ADDRESS = 0x10000 };
@@ -29,6 +30,7 @@ typedef struct machine {
 #define AI lrb_castps_pi(A)
 #define BI lrb_castps_pi(B)
 #define DI lrb_castps_pi(D)
+#define AD lrb_castps_pd(A)
 #define BD lrb_castps_pd(B)
 #define DD lrb_castps_pd(D)
 #define RD m->r[REGISTER(2)]
@@ -68,6 +70,12 @@ DEFINE_S3(ps, lrb_s3f, lrb_v16f, 1to16, 4, 4to16, 16)
 DEFINE_S3(pi, lrb_s3i, lrb_v16i, 1to16, 4, 4to16, 16)
 DEFINE_S3(pd, lrb_s3d, lrb_v8d, 1to8, 8, 4to8, 32)
 DEFINE_S3(pq, lrb_s3q, lrb_v8q, 1to8, 8, 4to8, 32)
+
+/* The forms that ops on groups of four lanes take. */
+static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
+{
+    return FORM == 0 || FORM == 2 ? s3_ps(m, b) : lrb_reg_ps(b);
+}
 #define S3 s3_ps(m, B)
 #define S3I s3_pi(m, BI)
 #define S3D s3_pd(m, BD)
@@ -118,7 +126,13 @@ static bool half(const machine *m, lrb_op_id op)
 #define STEP_V_Vpi(id) BINARY(id, , D, A, S3I)
 #define STEP_V_VV_I(id) INSERT(id, , D, S3, m->code[5] * 0x2091u)
 #define STEP_V_VVpi(id) TERNARY(id, , D, A, S3I)
-#define STEP_VD_VVpq(id) TERNARY(id, lrb_castpd_ps, DD, lrb_castps_pd(A), S3Q)
+#define STEP_VD_VVpq(id) TERNARY(id, lrb_castpd_ps, DD, AD, S3Q)
+#define STEP_VD_VV(id) BINARY(id, lrb_castpd_ps, DD, AD, S3D)
+#define STEP_VD_VVV(id) TERNARY(id, lrb_castpd_ps, DD, AD, S3D)
+#define STEP_V_KVV(id) D = lrb_##id##_s3(c, K, A, S3);
+#define STEP_VD_KVV(id) D = lrb_castpd_ps(lrb_##id##_s3(c, K, AD, S3D));
+#define STEP_V_VX(id) BINARY(id, , D, A, s3_groups(m, B))
+#define STEP_VK_VV(id) D = MASKED ? lrb_mask_##id##_s3(c, D, K, A, S3, &KD) : lrb_##id##_s3(c, A, S3, &KD);
 #define STEP_V_VII(id) \
     D = MASKED ? lrb_mask_##id(c, D, K, A, m->code[4], m->code[5]) : lrb_##id(c, A, m->code[4], m->code[5]);
 #define LOAD(suffix, old)                                                               \
@@ -134,6 +148,7 @@ static bool half(const machine *m, lrb_op_id op)
     if (MASKED) lrb_mask_##id(c, place(m, 64, 64), K, AI); else lrb_##id(c, place(m, 64, 64), AI);
 #define STEP_K_VV(id) COMPARE(id, A, S3)
 #define STEP_KI_VV(id) COMPARE(id, AI, S3I)
+#define STEP_KD_VV(id) COMPARE(id, AD, S3D)
 #define STEP_K_KK(id) KD = lrb_##id(c, KA, KB);
 #define STEP_K_K(id) KD = lrb_##id(c, KA);
 #define STEP_F_KK(id) m->flags = lrb_##id(c, KA, KB);
@@ -149,6 +164,8 @@ static bool half(const machine *m, lrb_op_id op)
 #define STEP_B_F(id) \
     if (m->code[2] & 1 ? lrb_jl(c, m->flags) : lrb_jz(c, m->flags)) m->skip = 1;
 #define STEP_B(id) lrb_##id(c);
+#define STEP_C_M(id) lrb_##id(c, place(m, 1, 4));
+#define STEP_M_C(id) lrb_##id(c, place(m, 1, 4));
 #define STEP_H_M(id) lrb_##id(c, place(m, 1, 1));
 #define STEP_H_R(id) lrb_##id(c, RA);
 #define STEP_MARK(id) lrb_##id(c, m->code[2]);

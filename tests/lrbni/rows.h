@@ -21,6 +21,33 @@
 #ifndef ROW_VD_V
 #define ROW_VD_V(id)
 #endif
+#ifndef ROW_VD_VV
+#define ROW_VD_VV(id)
+#endif
+#ifndef ROW_VD_VVV
+#define ROW_VD_VVV(id)
+#endif
+#ifndef ROW_KD_VV
+#define ROW_KD_VV(id)
+#endif
+#ifndef ROW_V_KVV
+#define ROW_V_KVV(id)
+#endif
+#ifndef ROW_VD_KVV
+#define ROW_VD_KVV(id)
+#endif
+#ifndef ROW_V_VX
+#define ROW_V_VX(id)
+#endif
+#ifndef ROW_VK_VV
+#define ROW_VK_VV(id)
+#endif
+#ifndef ROW_C_M
+#define ROW_C_M(id)
+#endif
+#ifndef ROW_M_C
+#define ROW_M_C(id)
+#endif
 #ifndef ROW_V_VII
 #define ROW_V_VII(id)
 #endif

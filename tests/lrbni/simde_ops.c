@@ -8,6 +8,7 @@
 #include <simde/x86/avx512/fmadd.h>
 #include <simde/x86/avx512/fmsub.h>
 #include <simde/x86/avx512/fnmadd.h>
+#include <simde/x86/avx512/fnmsub.h>
 #include <simde/x86/avx512/loadu.h>
 #include <simde/x86/avx512/max.h>
 #include <simde/x86/avx512/min.h>

@@ -2,7 +2,7 @@
 #ifndef LRBNI_HOST_AVX512_CONVERT_H
 #define LRBNI_HOST_AVX512_CONVERT_H
 
-#include "lrbni/host/avx512/lanes64.h"
+#include "lrbni/host/avx512/arith.h"
 
 #include "lrbni/host/common/each_lane.h"
 

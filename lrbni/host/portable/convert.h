@@ -2,7 +2,7 @@
 #ifndef LRBNI_HOST_PORTABLE_CONVERT_H
 #define LRBNI_HOST_PORTABLE_CONVERT_H
 
-#include "lrbni/host/portable/lanes64.h"
+#include "lrbni/host/portable/arith.h"
 
 #include "lrbni/host/common/each_lane.h"
 
