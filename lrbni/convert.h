@@ -4,6 +4,8 @@
  * - The exponent adjust n of the fixed-point forms: to integers b * 2^n is rounded, so that b becomes fixed point with n
  *   fraction bits; from integers the rounded value is divided by 2^n. The published formulas multiply both ways, which would
  *   not undo itself; division is assumed.
+ * - Rounding is that of the immediate that every one of them has. Flush-to-zero and denormals-are-zero do nothing here: what
+ *   they do to conversions is not published.
  * - Graphics formats: the rules of Direct3D are assumed, whose rounding is to nearest even where it leaves a choice.
  */
 #ifndef LRBNI_CONVERT_H
