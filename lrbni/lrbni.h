@@ -6,6 +6,8 @@
 #include "lrbni/ops/carry.h"
 #include "lrbni/ops/compare.h"
 #include "lrbni/ops/control.h"
+#include "lrbni/ops/convert.h"
+#include "lrbni/ops/exponent.h"
 #include "lrbni/ops/gather.h"
 #include "lrbni/ops/hints.h"
 #include "lrbni/ops/integer.h"

@@ -20,7 +20,7 @@ typedef enum lrb_shape {
 } lrb_shape;
 
 typedef enum lrb_mask_rule { LRB_MASK_NONE, LRB_MASK_MERGE, LRB_MASK_ZERO, LRB_MASK_SELECT } lrb_mask_rule;
-typedef enum lrb_round_rule { LRB_ROUND_EXACT, LRB_ROUND_RNE, LRB_ROUND_ASSUMED } lrb_round_rule;
+typedef enum lrb_round_rule { LRB_ROUND_EXACT, LRB_ROUND_RNE, LRB_ROUND_MODE, LRB_ROUND_ASSUMED } lrb_round_rule;
 
 /* Which chips have an op: the original Larrabee, Knights Corner, both, or only the published intrinsics. */
 typedef enum lrb_chips { LRB_CHIPS_NONE, LRB_CHIPS_L, LRB_CHIPS_K, LRB_CHIPS_LK, LRB_CHIPS_LIB, LRB_CHIPS_COUNT } lrb_chips;

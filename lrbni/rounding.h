@@ -18,6 +18,18 @@ typedef enum lrb_rounding {
     LRB_RZ  /* towards zero */
 } lrb_rounding;
 
+/* The exponent adjusts that fixed-point forms can encode (KNCNI). */
+typedef enum lrb_adjust {
+    LRB_ADJUST_NONE = 0,
+    LRB_ADJUST_4 = 4,
+    LRB_ADJUST_5 = 5,
+    LRB_ADJUST_8 = 8,
+    LRB_ADJUST_16 = 16,
+    LRB_ADJUST_24 = 24,
+    LRB_ADJUST_31 = 31,
+    LRB_ADJUST_32 = 32
+} lrb_adjust;
+
 /** Bits of a double, and back. */
 static inline uint64_t lrb_double_bits(double x)
 {

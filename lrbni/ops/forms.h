@@ -45,20 +45,21 @@
         return lrb_mask_##id##_s3(c, old, k, lrb_reg_##suffix(b));                                        \
     }
 
-/* LRB_BINARY(add_ps, ps, lanes_add_ps(a.lanes, b.lanes)) */
-#define LRB_BINARY(id, suffix, result)                                                                    \
-    LRB_INLINE LRB_VECTOR_##suffix lrb_##id##_s3(lrb_ctx *c, LRB_VECTOR_##suffix a, LRB_S3_##suffix b)    \
+/* LRB_BINARY(add_ps, ps, lanes_add_ps(a.lanes, b.lanes)); LRB_BINARY_OF where the lanes of the last source are others */
+#define LRB_BINARY(id, suffix, result) LRB_BINARY_OF(id, suffix, suffix, result)
+#define LRB_BINARY_OF(id, suffix, last, result)                                                                 \
+    LRB_INLINE LRB_VECTOR_##suffix lrb_##id##_s3(lrb_ctx *c, LRB_VECTOR_##suffix a, LRB_S3_##last b)    \
     {                                                                                                     \
         LRB_VECTOR_##suffix d = {.lanes = result};                                                        \
         LRB_SET_FROM(d, lrb_emit(c, LRB_OP_##id, b.form, 0xffff, LRB_FROM(a), LRB_FROM(b), 0, 0, b.address)); \
         return d;                                                                                         \
     }                                                                                                     \
-    LRB_INLINE LRB_VECTOR_##suffix lrb_##id(lrb_ctx *c, LRB_VECTOR_##suffix a, LRB_VECTOR_##suffix b)     \
+    LRB_INLINE LRB_VECTOR_##suffix lrb_##id(lrb_ctx *c, LRB_VECTOR_##suffix a, LRB_VECTOR_##last b)     \
     {                                                                                                     \
-        return lrb_##id##_s3(c, a, lrb_reg_##suffix(b));                                                  \
+        return lrb_##id##_s3(c, a, lrb_reg_##last(b));                                                  \
     }                                                                                                     \
     LRB_INLINE LRB_VECTOR_##suffix lrb_mask_##id##_s3(lrb_ctx *c, LRB_VECTOR_##suffix old, lrb_k16 k,     \
-                                                      LRB_VECTOR_##suffix a, LRB_S3_##suffix b)           \
+                                                      LRB_VECTOR_##suffix a, LRB_S3_##last b)           \
     {                                                                                                     \
         LRB_VECTOR_##suffix d = {.lanes = lanes_merge_##suffix(k.bits, old.lanes, result)};               \
         LRB_SET_FROM(d, LRB_EMIT_MASKED_##suffix(c, LRB_OP_##id, b.form, k, LRB_FROM(a), LRB_FROM(b), LRB_FROM(old), \
@@ -66,25 +67,27 @@
         return d;                                                                                         \
     }                                                                                                     \
     LRB_INLINE LRB_VECTOR_##suffix lrb_mask_##id(lrb_ctx *c, LRB_VECTOR_##suffix old, lrb_k16 k, LRB_VECTOR_##suffix a, \
-                                                 LRB_VECTOR_##suffix b)                                   \
+                                                 LRB_VECTOR_##last b)                                   \
     {                                                                                                     \
-        return lrb_mask_##id##_s3(c, old, k, a, lrb_reg_##suffix(b));                                     \
+        return lrb_mask_##id##_s3(c, old, k, a, lrb_reg_##last(b));                                     \
     }
 
-/* LRB_TERNARY(madd231_ps, ps, lanes_fmadd_ps(a, b, d)): the destination d is a source too; a masked form keeps d */
-#define LRB_TERNARY(id, suffix, result)                                                                   \
-    LRB_INLINE LRB_VECTOR_##suffix lrb_##id##_s3(lrb_ctx *c, LRB_VECTOR_##suffix d, LRB_VECTOR_##suffix a, LRB_S3_##suffix b) \
+/* LRB_TERNARY(madd231_ps, ps, lanes_fmadd_ps(a, b, d)): the destination d is a source too; a masked form keeps d;
+ * LRB_TERNARY_OF where the lanes of the last source are others */
+#define LRB_TERNARY(id, suffix, result) LRB_TERNARY_OF(id, suffix, suffix, result)
+#define LRB_TERNARY_OF(id, suffix, last, result)                                                                \
+    LRB_INLINE LRB_VECTOR_##suffix lrb_##id##_s3(lrb_ctx *c, LRB_VECTOR_##suffix d, LRB_VECTOR_##suffix a, LRB_S3_##last b) \
     {                                                                                                     \
         LRB_VECTOR_##suffix r = {.lanes = result};                                                        \
         LRB_SET_FROM(r, lrb_emit(c, LRB_OP_##id, b.form, 0xffff, LRB_FROM(a), LRB_FROM(b), 0, LRB_FROM(d), b.address)); \
         return r;                                                                                         \
     }                                                                                                     \
-    LRB_INLINE LRB_VECTOR_##suffix lrb_##id(lrb_ctx *c, LRB_VECTOR_##suffix d, LRB_VECTOR_##suffix a, LRB_VECTOR_##suffix b) \
+    LRB_INLINE LRB_VECTOR_##suffix lrb_##id(lrb_ctx *c, LRB_VECTOR_##suffix d, LRB_VECTOR_##suffix a, LRB_VECTOR_##last b) \
     {                                                                                                     \
-        return lrb_##id##_s3(c, d, a, lrb_reg_##suffix(b));                                               \
+        return lrb_##id##_s3(c, d, a, lrb_reg_##last(b));                                               \
     }                                                                                                     \
     LRB_INLINE LRB_VECTOR_##suffix lrb_mask_##id##_s3(lrb_ctx *c, LRB_VECTOR_##suffix d, lrb_k16 k, LRB_VECTOR_##suffix a, \
-                                                      LRB_S3_##suffix b)                                  \
+                                                      LRB_S3_##last b)                                  \
     {                                                                                                     \
         LRB_VECTOR_##suffix r = {.lanes = lanes_merge_##suffix(k.bits, d.lanes, result)};                 \
         LRB_SET_FROM(r, LRB_EMIT_MASKED_##suffix(c, LRB_OP_##id, b.form, k, LRB_FROM(a), LRB_FROM(b), LRB_FROM(d), \
@@ -92,9 +95,9 @@
         return r;                                                                                         \
     }                                                                                                     \
     LRB_INLINE LRB_VECTOR_##suffix lrb_mask_##id(lrb_ctx *c, LRB_VECTOR_##suffix d, lrb_k16 k, LRB_VECTOR_##suffix a, \
-                                                 LRB_VECTOR_##suffix b)                                   \
+                                                 LRB_VECTOR_##last b)                                   \
     {                                                                                                     \
-        return lrb_mask_##id##_s3(c, d, k, a, lrb_reg_##suffix(b));                                       \
+        return lrb_mask_##id##_s3(c, d, k, a, lrb_reg_##last(b));                                       \
     }
 
 /* LRB_COMPARE(cmplt_pi, pi): a mask from lanes_cmplt_pi; bits that k leaves out are 0 */

@@ -20,6 +20,7 @@ FRAGMENTS = {
     "lrbni/host/double_memory.h": "the same",
     "lrbni/host/common/conversions.h": "included by lanes.h below the back end",
     "tests/lrbni/program_memory.h": "a part of program.c",
+    "lrbni/host/common/each_lane.h": "the same",
     "tests/scene/near.h": "to be included after cmocka.h, as it says",
 }
 

@@ -128,19 +128,31 @@ static inline uint32_t case_words(const vector_case *v)
     return words;
 }
 
-/* The op left one event that names it, its form, its mask and its address, and no sources. */
-static __attribute__((unused)) void case_check_event(const lrb_ctx *c, unsigned op, const vector_case *v)
+/* The bits of an event's op that say how the last source was given. */
+static inline unsigned case_form_bits(const vector_case *v)
 {
     static const unsigned read[2][S3_FORMS - S3_FULL] = {{0, LRB_FORM_4_BYTES, LRB_FORM_16_BYTES},
                                                          {0, LRB_FORM_8_BYTES, LRB_FORM_32_BYTES}};
+    return v->form >= S3_FULL ? LRB_FORM_MEMORY | read[v->wide][v->form - S3_FULL]
+                              : v->form >= S3_SWIZZLE ? LRB_FORM_SWIZZLE : 0;
+}
+
+/* The op left one event that names it, its form, the words that it writes and its address, and no sources. */
+static __attribute__((unused)) void case_check_words(const lrb_ctx *c, unsigned op, const vector_case *v, unsigned bits,
+                                                     uint32_t words)
+{
     const lrb_event *e = &c->events[0];
-    unsigned bits = v->form >= S3_FULL ? LRB_FORM_MEMORY | read[v->wide][v->form - S3_FULL]
-                                       : v->form >= S3_SWIZZLE ? LRB_FORM_SWIZZLE : 0;
     uint32_t address = v->form >= S3_FULL ? CASE_ADDRESS + (uint32_t)case_offset(v) : 0;
-    if (c->next_event != LRB_FAR + 1 || e->op != (op | bits) || e->mask != case_words(v) || e->aux != address || e->src[0] ||
+    if (c->next_event != LRB_FAR + 1 || e->op != (op | bits) || e->mask != words || e->aux != address || e->src[0] ||
         e->src[1] || e->src[2] || e->src[3])
         fail_msg("%s: %u events, op %04x mask %04x aux %x src %u %u %u %u; form %d", lrb_op_table[op].id,
                  c->next_event - LRB_FAR, e->op, e->mask, e->aux, e->src[0], e->src[1], e->src[2], e->src[3], v->form);
+}
+
+/* The same for an op whose result has the lanes of its sources. */
+static inline void case_check_event(const lrb_ctx *c, unsigned op, const vector_case *v)
+{
+    case_check_words(c, op, v, case_form_bits(v), case_words(v));
 }
 
 /* Fill vectors, and call back for every form and mask, or for random ones. */

@@ -44,6 +44,27 @@ enum { REF_NOWHERE = -1000 };
 #define REF_VI_VV(id) uint32_t ref_##id(uint32_t a, uint32_t b);
 #define REF_V_VVV(id) uint32_t ref_##id(uint32_t d, uint32_t a, uint32_t b);
 #define REF_VD_V(id) uint64_t ref_##id(uint64_t b);
+/* The same where lanes differ, or with immediates: rounding (0 to 3: nearest, down, up, to zero) and exponent adjust, interval and
+ * sign, number of a field, a table of 21 bits. */
+#define REF_VI_ps_II(id) uint32_t ref_##id(uint32_t b, int mode, int adjust);
+#define REF_V_pi_II(id) uint32_t ref_##id(uint32_t b, int mode, int adjust);
+#define REF_V_V_II(id) uint32_t ref_##id(uint32_t b, int mode, int adjust);
+#define REF_VD_V_II(id) uint64_t ref_##id(uint64_t b, int mode, int adjust);
+#define REF_V_V_NS(id) uint32_t ref_##id(uint32_t b, int interval, int sign);
+#define REF_VD_V_NS(id) uint64_t ref_##id(uint64_t b, int interval, int sign);
+#define REF_VD_ps(id) uint64_t ref_##id(uint32_t b);
+#define REF_VD_pi(id) uint64_t ref_##id(uint32_t b);
+#define REF_V_pd_I(id) uint32_t ref_##id(uint64_t b, int mode);
+#define REF_VI_pd_I(id) uint32_t ref_##id(uint64_t b, int mode);
+#define REF_V_Vpd_I(id) uint32_t ref_##id(uint64_t b, int mode);
+#define REF_VI_Vpd_I(id) uint32_t ref_##id(uint64_t b, int mode);
+#define REF_VI_ps(id) uint32_t ref_##id(uint32_t b);
+#define REF_V_pi(id) uint32_t ref_##id(uint32_t b);
+#define REF_VI_Vps_I(id) uint32_t ref_##id(uint32_t d, uint32_t b, int field);
+#define REF_V_Vpi(id) uint32_t ref_##id(uint32_t a, uint32_t b);
+#define REF_V_VV_I(id) uint32_t ref_##id(uint32_t d, uint32_t b, uint32_t table);
+#define REF_V_VVpi(id) uint32_t ref_##id(uint32_t d, uint32_t a, uint32_t b);
+#define REF_VD_VVpq(id) uint64_t ref_##id(uint64_t d, uint64_t a, uint64_t b);
 #define REF_VD_VV(id) uint64_t ref_##id(uint64_t a, uint64_t b);
 #define REF_VD_VVV(id) uint64_t ref_##id(uint64_t d, uint64_t a, uint64_t b);
 #define REF_KD_VV(id) bool ref_##id(uint64_t a, uint64_t b);

@@ -215,6 +215,8 @@ static uint32_t reciprocal(uint32_t x)
     return sign | (q < 1u << 23 ? (uint32_t)q : (uint32_t)(exponent + 150) << 23 | ((uint32_t)q & 0x007fffff));
 }
 
+uint32_t ref_rcp23_ps(uint32_t b) { return ref_is_nan(b) ? b | QUIET : reciprocal(b); }
+
 /* Sign, exponent and 11 bits of mantissa are kept of the rounded quotient, and as many of a NaN. */
 uint32_t ref_rcpres_ps(uint32_t b)
 {

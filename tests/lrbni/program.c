@@ -91,11 +91,26 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define S3I_WHOLE (FORM & 1 ? lrb_full_pi(place(m, 64, 64)) : lrb_reg_pi(BI))
 #define S3I_GROUPS (FORM & 2 ? lrb_4to16_pi(place(m, 16, 16)) : S3I_WHOLE)
 
+static const lrb_adjust adjusts[] = {LRB_ADJUST_NONE, LRB_ADJUST_4, LRB_ADJUST_5, LRB_ADJUST_8, LRB_ADJUST_16, LRB_ADJUST_24, LRB_ADJUST_31, LRB_ADJUST_32};
+
+/* Whether a conversion of half a vector reads memory; the high half is a register's. */
+static bool half(const machine *m, lrb_op_id op)
+{
+    return FORM == 0 && op != LRB_OP_cvthi_ps2pd && op != LRB_OP_cvthi_pi2pd && op != LRB_OP_cvthi_pu2pd;
+}
+
 /* What an op of each shape does with the instruction's operands. UNARY(mov_pi, lrb_castpi_ps, DI, S3I): the plain or the masked
  * form, from the old destination and S3; its result becomes the register. */
 #define UNARY(id, cast, d, s3) D = cast(MASKED ? lrb_mask_##id##_s3(c, d, K, s3) : lrb_##id##_s3(c, s3));
 #define BINARY(id, cast, d, a, s3) D = cast(MASKED ? lrb_mask_##id##_s3(c, d, K, a, s3) : lrb_##id##_s3(c, a, s3));
 #define TERNARY(id, cast, d, a, s3) D = cast(MASKED ? lrb_mask_##id##_s3(c, d, K, a, s3) : lrb_##id##_s3(c, d, a, s3));
+#define CONVERT(id, cast, d, s3, ...) \
+    D = cast(MASKED ? lrb_mask_##id##_s3(c, d, K, s3, __VA_ARGS__) : lrb_##id##_s3(c, s3, __VA_ARGS__));
+#define INSERT(id, cast, d, s3, ...) \
+    D = cast(MASKED ? lrb_mask_##id##_s3(c, d, K, s3, __VA_ARGS__) : lrb_##id##_s3(c, d, s3, __VA_ARGS__));
+#define MODE (lrb_rounding)(m->code[5] & 3)
+#define FIXED MODE, adjusts[m->code[6] & 7]
+#define MANTISSA (lrb_mantissa)(m->code[5] & 3), (lrb_mantissa_sign)(m->code[6] % 3)
 #define COMPARE(id, a, s3) KD = MASKED ? lrb_mask_##id##_s3(c, K, a, s3) : lrb_##id##_s3(c, a, s3);
 #define STEP_V_V(id) UNARY(id, , D, S3)
 #define STEP_V_VV(id) BINARY(id, , D, A, S3)
@@ -103,6 +118,25 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define STEP_VI_V(id) UNARY(id, lrb_castpi_ps, DI, S3I)
 #define STEP_VI_VV(id) BINARY(id, lrb_castpi_ps, DI, AI, S3I)
 #define STEP_VD_V(id) UNARY(id, lrb_castpd_ps, DD, S3D)
+#define STEP_VI_ps_II(id) CONVERT(id, lrb_castpi_ps, DI, S3, FIXED)
+#define STEP_V_pi_II(id) CONVERT(id, , D, S3I, FIXED)
+#define STEP_V_V_II(id) CONVERT(id, , D, S3, FIXED)
+#define STEP_VD_V_II(id) CONVERT(id, lrb_castpd_ps, DD, S3D, FIXED)
+#define STEP_V_V_NS(id) CONVERT(id, , D, S3, MANTISSA)
+#define STEP_VD_V_NS(id) CONVERT(id, lrb_castpd_ps, DD, S3D, MANTISSA)
+#define STEP_VD_ps(id) UNARY(id, lrb_castpd_ps, DD, (half(m, LRB_OP_##id) ? lrb_half_ps(place(m, 32, 32)) : lrb_reg_ps(B)))
+#define STEP_VD_pi(id) UNARY(id, lrb_castpd_ps, DD, (half(m, LRB_OP_##id) ? lrb_half_pi(place(m, 32, 32)) : lrb_reg_pi(BI)))
+#define STEP_V_pd_I(id) CONVERT(id, , D, S3D, MODE)
+#define STEP_VI_pd_I(id) CONVERT(id, lrb_castpi_ps, DI, S3D, MODE)
+#define STEP_V_Vpd_I(id) INSERT(id, , D, S3D, MODE)
+#define STEP_VI_Vpd_I(id) INSERT(id, lrb_castpi_ps, DI, S3D, MODE)
+#define STEP_VI_ps(id) UNARY(id, lrb_castpi_ps, DI, S3)
+#define STEP_V_pi(id) UNARY(id, , D, S3I)
+#define STEP_VI_Vps_I(id) INSERT(id, lrb_castpi_ps, DI, S3, m->code[5] % 3u)
+#define STEP_V_Vpi(id) BINARY(id, , D, A, S3I)
+#define STEP_V_VV_I(id) INSERT(id, , D, S3, m->code[5] * 0x2091u)
+#define STEP_V_VVpi(id) TERNARY(id, , D, A, S3I)
+#define STEP_VD_VVpq(id) TERNARY(id, lrb_castpd_ps, DD, AD, S3Q)
 #define STEP_VD_VV(id) BINARY(id, lrb_castpd_ps, DD, AD, S3D)
 #define STEP_VD_VVV(id) TERNARY(id, lrb_castpd_ps, DD, AD, S3D)
 #define STEP_V_KVV(id) D = lrb_##id##_s3(c, K, A, S3);

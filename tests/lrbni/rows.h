@@ -213,6 +213,63 @@
 #ifndef ROW_H_R
 #define ROW_H_R(id)
 #endif
+#ifndef ROW_VI_ps_II
+#define ROW_VI_ps_II(id)
+#endif
+#ifndef ROW_V_pi_II
+#define ROW_V_pi_II(id)
+#endif
+#ifndef ROW_V_V_II
+#define ROW_V_V_II(id)
+#endif
+#ifndef ROW_VD_V_II
+#define ROW_VD_V_II(id)
+#endif
+#ifndef ROW_V_V_NS
+#define ROW_V_V_NS(id)
+#endif
+#ifndef ROW_VD_V_NS
+#define ROW_VD_V_NS(id)
+#endif
+#ifndef ROW_VD_ps
+#define ROW_VD_ps(id)
+#endif
+#ifndef ROW_VD_pi
+#define ROW_VD_pi(id)
+#endif
+#ifndef ROW_V_pd_I
+#define ROW_V_pd_I(id)
+#endif
+#ifndef ROW_VI_pd_I
+#define ROW_VI_pd_I(id)
+#endif
+#ifndef ROW_V_Vpd_I
+#define ROW_V_Vpd_I(id)
+#endif
+#ifndef ROW_VI_Vpd_I
+#define ROW_VI_Vpd_I(id)
+#endif
+#ifndef ROW_VI_ps
+#define ROW_VI_ps(id)
+#endif
+#ifndef ROW_V_pi
+#define ROW_V_pi(id)
+#endif
+#ifndef ROW_VI_Vps_I
+#define ROW_VI_Vps_I(id)
+#endif
+#ifndef ROW_V_Vpi
+#define ROW_V_Vpi(id)
+#endif
+#ifndef ROW_V_VV_I
+#define ROW_V_VV_I(id)
+#endif
+#ifndef ROW_V_VVpi
+#define ROW_V_VVpi(id)
+#endif
+#ifndef ROW_VD_VVpq
+#define ROW_VD_VVpq(id)
+#endif
 #ifndef ROW_MARK
 #define ROW_MARK(id)
 #endif
