@@ -79,7 +79,7 @@ LRB_INLINE void lrb_write_places(const lrb_places *p, uint32_t k, unsigned char 
 /* The elements of a register, converted as the state of the machine has it. */
 LRB_INLINE lrb_elements lrb_down_elements_ps(lrb_ctx *c, lrb_f32x16 a, lrb_down_ps down)
 {
-    lrb_elements e;
+    lrb_elements e = {0};
     lanes_down_in_mode_ps(e.bytes, down == LRB_DOWN_PS_none ? a : LRB_READ(c, ps, a), down, (lrb_rounding)LRB_STATE(c).rounding);
     return e;
 }
@@ -87,7 +87,7 @@ LRB_INLINE lrb_elements lrb_down_elements_ps(lrb_ctx *c, lrb_f32x16 a, lrb_down_
 #define LRB_DOWN_ELEMENTS(suffix, vector)                                                                   \
     LRB_INLINE lrb_elements lrb_down_elements_##suffix(lrb_ctx *c, lrb_##vector a, lrb_down_##suffix down)  \
     {                                                                                                       \
-        lrb_elements e;                                                                                     \
+        lrb_elements e = {0};                                                                                    \
         (void)c;                                                                                            \
         lanes_down_##suffix(e.bytes, a, down);                                                              \
         return e;                                                                                           \
