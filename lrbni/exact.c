@@ -143,7 +143,7 @@ enum { NEGATE_PRODUCT = 1, NEGATE_ADDEND = 2 };
 /* x * y + z of finite numbers; without an addend, x * y. */
 static uint64_t multiply_add(const format *f, lrb_control control, number x, number y, const number *z)
 {
-    number p = {.negative = x.negative != y.negative, .exponent = x.exponent + y.exponent, .significand = x.significand * y.significand};
+    number p = {x.negative != y.negative, x.exponent + y.exponent, x.significand * y.significand};
     number r = p;
     if (z && z->significand)
         r = p.significand ? sum(p, *z) : *z;
@@ -217,7 +217,8 @@ void lrb_exact_ps(lrb_control control, lrb_exact_op op, uint32_t r[16], const ui
         r[i] = (uint32_t)exact(&single, control, op, x[i], y[i], z[i]);
 }
 
-void lrb_exact_pd(lrb_control control, lrb_exact_op op, uint64_t r[8], const uint64_t x[8], const uint64_t y[8], const uint64_t z[8])
+void lrb_exact_pd(lrb_control control, lrb_exact_op op, uint64_t r[8], const uint64_t x[8], const uint64_t y[8],
+                  const uint64_t z[8])
 {
     for (int i = 0; i < 8; i++)
         r[i] = exact(&twice, control, op, x[i], y[i], z[i]);

@@ -185,7 +185,8 @@ uint64_t ref_fused(bool wide, ref_control control, ref_sources s)
     int order = compare(&p, &q);
     if (p_negative == q_negative) {
         fixed sum = combine(&p, &q, false);
-        return highest_bit(&sum) < 0 ? zero(wide, control, copysign(0, x) * copysign(1, y), z) : rounded(wide, control, &sum, p_negative);
+        return highest_bit(&sum) < 0 ? zero(wide, control, copysign(0, x) * copysign(1, y), z)
+                                     : rounded(wide, control, &sum, p_negative);
     }
     if (order == 0)
         return zero(wide, control, copysign(1, x) * copysign(1, y), z);

@@ -283,7 +283,8 @@ static void composed_ops__every_state__as_their_parts(void **state)
         lrb_ctx_begin(c);
         c->control = control_of(state_number(n % STATES));
         lanes_store_ps(got[0], lrb_madd233_ps(c, a, b).lanes);
-        lanes_store_ps(parts[0], lrb_madd231_ps_s3(c, lrb_mov_ps_s3(c, lrb_swizzle_ps(b, LRB_AAAA)), a, lrb_swizzle_ps(b, LRB_BBBB)).lanes);
+        lrb_v16f bias = lrb_mov_ps_s3(c, lrb_swizzle_ps(b, LRB_AAAA)), scale = lrb_mov_ps_s3(c, lrb_swizzle_ps(b, LRB_BBBB));
+        lanes_store_ps(parts[0], lrb_madd231_ps(c, bias, a, scale).lanes);
         lanes_store_ps(got[1], lrb_addsets_ps(c, a, b, &signs).lanes);
         lanes_store_ps(parts[1], lrb_add_ps(c, a, b).lanes);
         lanes_store_ps(got[2], lrb_msubr23c1_ps(c, a, b).lanes);
@@ -292,8 +293,7 @@ static void composed_ops__every_state__as_their_parts(void **state)
         for (int i = 0; i < 16; i++)
             assert_int_equal(signs.bits >> i & 1, got[1][i] >> 31);
         lanes_store_ps(got[0], lrb_madd233_round_ps(c, a, b, LRB_RU).lanes);
-        lanes_store_ps(parts[0], lrb_madd231_round_ps(c, lrb_mov_ps_s3(c, lrb_swizzle_ps(b, LRB_AAAA)), a,
-                                                      lrb_mov_ps_s3(c, lrb_swizzle_ps(b, LRB_BBBB)), LRB_RU).lanes);
+        lanes_store_ps(parts[0], lrb_madd231_round_ps(c, bias, a, scale, LRB_RU).lanes);
         assert_memory_equal(got[0], parts[0], sizeof got[0]);
     }
 }

@@ -247,7 +247,8 @@ static void case42__blend__bit_1_takes_the_second(void **state)
 static void case53__mask_of_doubles__low_eight_bits(void **state)
 {
     uint32_t lanes[16];
-    lanes_store_pd(lanes, lrb_mask_add_pd(*state, all_pd(7), lrb_mask(0xff0f), all_pd(0x3ff0000000000000), all_pd(0x3ff0000000000000)).lanes);
+    lrb_v8d one = all_pd(0x3ff0000000000000);
+    lanes_store_pd(lanes, lrb_mask_add_pd(*state, all_pd(7), lrb_mask(0xff0f), one, one).lanes);
     for (int i = 0; i < 8; i++)
         assert_true(case_get(lanes, true, i) == (i < 4 ? UINT64_C(0x4000000000000000) : 7));
 }
