@@ -52,6 +52,35 @@ lrb_access lrb_op_access_of(lrb_op_id id)
     return lrb_shape_table[lrb_op_table[id].shape].access;
 }
 
+lrb_hint lrb_op_hint_of(lrb_op_id id)
+{
+    switch ((int)id) {
+    case LRB_OP_prefetch1:
+    case LRB_OP_prefetch1_ex:
+    case LRB_OP_prefetch1_nt:
+    case LRB_OP_prefetch1_ex_nt:
+    case LRB_OP_prefetch1_miss:
+    case LRB_OP_gatherpfd:
+    case LRB_OP_scatterpfd:
+        return LRB_HINT_PREFETCH1;
+    case LRB_OP_prefetch2:
+    case LRB_OP_prefetch2_ex:
+    case LRB_OP_prefetch2_nt:
+    case LRB_OP_prefetch2_ex_nt:
+    case LRB_OP_gatherpf2d:
+    case LRB_OP_scatterpf2d:
+        return LRB_HINT_PREFETCH2;
+    case LRB_OP_evict1:
+        return LRB_HINT_EVICT1;
+    case LRB_OP_evict2:
+        return LRB_HINT_EVICT2;
+    case LRB_OP_delay:
+        return LRB_HINT_DELAY;
+    default:
+        return LRB_HINT_NONE;
+    }
+}
+
 int lrb_op_is_memory(lrb_op_id id)
 {
     lrb_access access = lrb_op_access_of(id);

@@ -33,6 +33,16 @@ typedef enum lrb_access {
     LRB_ACCESS_HINT /* nothing but a word to the caches: prefetch or evict, by the op */
 } lrb_access;
 
+/* What a hint asks of the core; of gathers and scatters to come the ones that only announce them ask nothing. */
+typedef enum lrb_hint {
+    LRB_HINT_NONE,
+    LRB_HINT_PREFETCH1, /* a line to the first level, ... */
+    LRB_HINT_PREFETCH2, /* ... or to the second */
+    LRB_HINT_EVICT1,
+    LRB_HINT_EVICT2,
+    LRB_HINT_DELAY
+} lrb_hint;
+
 /* What a shape says of its ops (lrbni/shapes.def). */
 typedef struct lrb_shape_info {
     const char *name; /* "V_VV" */
@@ -70,6 +80,9 @@ lrb_op_kind lrb_op_kind_of(lrb_op_id id);
 
 /** What an op of this id does to memory whatever its form (an S3 memory operand is told by the event). */
 lrb_access lrb_op_access_of(lrb_op_id id);
+
+/** What an op of this id asks of the core beyond its pipes. */
+lrb_hint lrb_op_hint_of(lrb_op_id id);
 
 /** Whether an op of this id always reads or writes memory. */
 int lrb_op_is_memory(lrb_op_id id);
