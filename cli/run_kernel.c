@@ -9,7 +9,7 @@
 #include "cli/stats.h"
 #include "lrbni/base/parallel.h"
 #include "reports/image_writer.h"
-#include "reports/output_file.h"
+#include "lrbni/base/output_file.h"
 
 enum {
     KEY_SCENE = 256, KEY_CAMERA, KEY_SIZE, KEY_SAMPLES, KEY_LIGHT_SCALE, KEY_MODEL, KEY_MACHINE, KEY_SET, KEY_PARAM,
@@ -147,13 +147,13 @@ static base_status check_outputs(const arguments *a, base_error *err)
 {
     const char *paths[] = {a->stats, a->image, a->aov, a->heatmap};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
-        report_output out;
+        base_output out;
         if (!paths[i] || (i == 0 && strcmp(paths[i], "-") == 0))
             continue;
-        base_status status = report_output_begin(paths[i], false, &out, err);
+        base_status status = base_output_begin(paths[i], false, &out, err);
         if (status != BASE_OK)
             return status;
-        report_output_abort(&out);
+        base_output_abort(&out);
     }
     return BASE_OK;
 }
@@ -189,8 +189,8 @@ static base_status make_plan(const arguments *a, plan *p, base_error *err)
 
 static base_status write_stats(const arguments *a, const plan *p, const run_result *result, base_error *err)
 {
-    report_output out;
-    base_status status = report_output_begin(a->stats ? a->stats : "-", true, &out, err);
+    base_output out;
+    base_status status = base_output_begin(a->stats ? a->stats : "-", true, &out, err);
     if (status != BASE_OK)
         return status;
     if (a->stats) {
@@ -203,10 +203,10 @@ static base_status write_stats(const arguments *a, const plan *p, const run_resu
         report_table_destroy(&table);
     }
     if (status != BASE_OK) {
-        report_output_abort(&out);
+        base_output_abort(&out);
         return status;
     }
-    return report_output_commit(&out, err);
+    return base_output_commit(&out, err);
 }
 
 static base_status write_picture(const char *path, report_image *image, base_status made, base_error *err)
