@@ -15,7 +15,7 @@ enum { KEY_MACHINE = 256, KEY_SET, KEY_MODEL, KEY_JOBS, KEY_STATS };
 static const struct argp_option option_table[] = {
     {"machine", KEY_MACHINE, "M", 0, "a machine (see lanetrace machines), or a description's path; repeatable: several are timed in one pass; default larrabee", 1},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a field of every machine; repeatable", 1},
-    {"model", KEY_MODEL, "M", 0, "count or issue: how much of the machine is modelled; default issue", 1},
+    {"model", KEY_MODEL, "M", 0, "count, issue or core: how much of the machine is modelled; default core", 1},
     {"jobs", KEY_JOBS, "N", 0, "host threads; results do not depend on it; default: all", 1},
     {"stats", KEY_STATS, "FILE", 0, "JSON statistics, - for stdout; default: a table on stdout", 2},
     {0},
@@ -85,7 +85,7 @@ static base_status plan_options(const arguments *a, plan *p, base_error *err)
 {
     unsigned long jobs = base_parallel_jobs();
     base_status status = BASE_OK;
-    p->options = (replay_options){.model = RUN_ISSUE, .progress = true};
+    p->options = (replay_options){.model = RUN_CORE, .progress = true};
     if (a->model)
         status = run_model_find(a->model, &p->options.model, err);
     if (status == BASE_OK && p->options.model == RUN_NATIVE)

@@ -6,6 +6,7 @@
 
 #include "cli/clock.h"
 #include "cli/progress.h"
+#include "cli/run_core.h"
 #include "lrbni/base/parallel.h"
 #include "sim/count.h"
 
@@ -130,6 +131,35 @@ static void collect(const replay_state *r, const identity *id, double seconds, r
     }
 }
 
+/* Count and issue: tile by tile, each for all machines. */
+static base_status replay_tiles(const trace_reader *trace, const identity *id, replay_state *r, run_result *results, base_error *err)
+{
+    base_status status = create_workers(r, trace, err);
+    if (status == BASE_OK) {
+        double start = clock_seconds();
+        base_parallel_for(r->jobs, trace_reader_tiles(trace), replay_tile, r);
+        status = first_failure(r, err);
+        if (status == BASE_OK)
+            collect(r, id, clock_seconds() - start, results);
+    }
+    destroy_workers(r);
+    return status;
+}
+
+/* Core: its threads take tiles when they run dry, each machine's at other times. */
+static base_status replay_cores(const trace_reader *trace, const identity *id, replay_state *r, run_result *results, base_error *err)
+{
+    const recorder_input input = {.tiles = trace_reader_tiles(trace), .replayed = trace};
+    base_status status = BASE_OK;
+    for (size_t m = 0; status == BASE_OK && m < r->count; m++) {
+        double start = clock_seconds();
+        results[m].counts = id->counts;
+        status = run_core(&results[m], &input, &r->progress, err);
+        results[m].kernel_seconds = clock_seconds() - start;
+    }
+    return status;
+}
+
 base_status replay_run(const trace_reader *trace, const identity *id, sim_machine *const *machines, size_t count,
                        const replay_options *options, run_result *results, base_error *err)
 {
@@ -143,16 +173,9 @@ base_status replay_run(const trace_reader *trace, const identity *id, sim_machin
             .traced = id->json,
             .machine = machines[m],
         };
-    base_status status = create_workers(&r, trace, err);
-    if (status == BASE_OK) {
-        double start = clock_seconds();
-        r.progress = progress_begin("replay", tiles, options->progress);
-        base_parallel_for(r.jobs, tiles, replay_tile, &r);
-        progress_end(&r.progress);
-        status = first_failure(&r, err);
-        if (status == BASE_OK)
-            collect(&r, id, clock_seconds() - start, results);
-    }
-    destroy_workers(&r);
+    r.progress = progress_begin("replay", options->model == RUN_CORE ? tiles * count : tiles, options->progress);
+    base_status status = options->model == RUN_CORE ? replay_cores(trace, id, &r, results, err)
+                                                    : replay_tiles(trace, id, &r, results, err);
+    progress_end(&r.progress);
     return status;
 }

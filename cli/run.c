@@ -6,11 +6,12 @@
 
 #include "cli/clock.h"
 #include "cli/progress.h"
+#include "cli/run_core.h"
 #include "cli/run_trace.h"
 #include "lrbni/base/parallel.h"
 #include "sim/count.h"
 
-const char *const run_model_names[RUN_MODELS] = {"native", "count", "issue"};
+const char *const run_model_names[RUN_MODELS] = {"native", "count", "issue", "core"};
 
 base_status run_model_find(const char *name, run_model *out, base_error *err)
 {
@@ -19,9 +20,7 @@ base_status run_model_find(const char *name, run_model *out, base_error *err)
             *out = (run_model)i;
             return BASE_OK;
         }
-    if (strcmp(name, "core") == 0)
-        return base_fail(err, BASE_ERR_UNSUPPORTED, "--model", "'core' is not in this version (there are native, count, issue)");
-    return base_fail(err, BASE_ERR_USAGE, "--model", "no model '%s' (there are native, count, issue)", name);
+    return base_fail(err, BASE_ERR_USAGE, "--model", "no model '%s' (there are native, count, issue, core)", name);
 }
 
 /* What one host thread works with; its sums are added up at the end, and integers add up in any order. */
@@ -37,7 +36,7 @@ typedef struct run_state {
     run_result *result;
     run_worker *workers;
     progress *progress;
-    run_trace trace;
+    run_trace *trace; /* that takes what is recorded; its writer NULL: nothing is */
 } run_state;
 
 /* Events for the trace, and for the model where it takes events. */
@@ -80,14 +79,14 @@ static void run_tile(run_state *r, uint32_t tile, unsigned worker, kernel_counts
 {
     static const int levels[RUN_MODELS] = {[RUN_NATIVE] = LRB_NATIVE, [RUN_COUNT] = LRB_COUNT, [RUN_ISSUE] = LRB_RECORD};
     const run_options *o = &r->result->options;
-    const bool traced = r->trace.writer != NULL;
+    const bool traced = r->trace->writer != NULL;
     lrb_ctx *ctx = r->workers[worker].ctx;
     if (traced)
-        run_trace_begin_tile(&r->trace, worker);
+        run_trace_begin_tile(r->trace, worker);
     o->kernel->tile[traced ? LRB_RECORD : levels[o->model]](ctx, r->result->job, tile, counts);
     lrb_ctx_end(ctx);
     if (traced)
-        run_trace_end_tile(&r->trace, worker, tile);
+        run_trace_end_tile(r->trace, worker, tile);
 }
 
 static void run_one_tile(void *user, size_t tile, unsigned worker_index)
@@ -109,6 +108,7 @@ static void run_one_tile(void *user, size_t tile, unsigned worker_index)
         cycles[SIM_MAX_REGIONS] = count_tile_cycles(r, w, &before);
         break;
     case RUN_ISSUE:
+    case RUN_CORE: /* run_core does that */
     case RUN_MODELS:
         sim_issue_begin(w->issue);
         run_tile(r, (uint32_t)tile, worker_index, &counts);
@@ -173,8 +173,8 @@ static base_status create_workers(run_state *r, unsigned jobs, base_error *err)
         return base_fail(err, BASE_ERR_NOMEM, "--jobs", "out of memory for %u threads", jobs);
     for (unsigned i = 0; i < jobs; i++) {
         base_status status = sim_issue_create(r->result->machine, &r->workers[i].issue, err);
-        if (r->trace.writer)
-            r->workers[i].encoder = r->trace.workers[i].encoder;
+        if (r->trace->writer)
+            r->workers[i].encoder = r->trace->workers[i].encoder;
         if (status == BASE_OK)
             status = create_ctx(r, &r->workers[i], err);
         if (status != BASE_OK)
@@ -192,34 +192,46 @@ static void destroy_workers(run_state *r, unsigned jobs)
     free(r->workers);
 }
 
+/* Trace the tiles one by one: all models but core. */
+static base_status trace_tiles(run_result *result, run_trace *recorded, progress *bar, base_error *err)
+{
+    const unsigned jobs = result->options.jobs;
+    run_state r = {.result = result, .progress = bar, .trace = recorded};
+    base_status status = create_workers(&r, jobs, err);
+    if (status == BASE_OK) {
+        base_parallel_for(jobs, kernel_job_tiles(result->job), run_one_tile, &r);
+        for (unsigned i = 0; i < jobs; i++)
+            collect_worker(result, &r.workers[i]);
+        run_finish_cycles(result);
+    }
+    destroy_workers(&r, jobs);
+    return status;
+}
+
 static base_status trace(run_result *result, base_error *err)
 {
     const run_options *o = &result->options;
     size_t tiles = kernel_job_tiles(result->job);
-    run_state r = {.result = result};
     if (o->model != RUN_NATIVE)
         result->region_cycles = calloc(tiles * (SIM_MAX_REGIONS + 1), sizeof *result->region_cycles);
     if (o->keep_tile_counts)
         result->tile_counts = calloc(tiles, sizeof *result->tile_counts);
     if ((o->model != RUN_NATIVE && !result->region_cycles) || (o->keep_tile_counts && !result->tile_counts))
         return base_fail(err, BASE_ERR_NOMEM, "--size", "out of memory for %ux%u pixels", o->width, o->height);
-    base_status status = run_trace_begin(result, &r.trace, err);
-    if (status == BASE_OK)
-        status = create_workers(&r, o->jobs, err);
+    run_trace recorded = {0};
+    base_status status = run_trace_begin(result, &recorded, err);
     if (status == BASE_OK) {
         progress bar = progress_begin(o->kernel->name, tiles, o->progress);
-        r.progress = &bar;
         double start = clock_seconds();
-        base_parallel_for(o->jobs, tiles, run_one_tile, &r);
+        recorder_input input = {.tiles = tiles, .kernel = o->kernel, .job = result->job, .tile_counts = result->tile_counts,
+                                .trace = &recorded};
+        status = o->model == RUN_CORE ? run_core(result, &input, &bar, err) : trace_tiles(result, &recorded, &bar, err);
         result->kernel_seconds = clock_seconds() - start;
         progress_end(&bar);
-        for (unsigned i = 0; i < o->jobs; i++)
-            collect_worker(result, &r.workers[i]);
-        run_finish_cycles(result);
-        status = run_trace_commit(&r.trace, result, err);
     }
-    destroy_workers(&r, o->jobs);
-    run_trace_destroy(&r.trace);
+    if (status == BASE_OK)
+        status = run_trace_commit(&recorded, result, err);
+    run_trace_destroy(&recorded);
     return status;
 }
 

@@ -51,7 +51,7 @@ base_status trace_source_seek(trace_source *s, uint32_t tile, base_error *err);
  */
 base_status trace_source_next(trace_source *s, const lrb_event **events, uint32_t *count, base_error *err);
 
-/** A whole tile at once, instead of seek and next; the same otherwise. Errors: those of both, and BASE_ERR_NOMEM. */
-base_status trace_source_tile(trace_source *s, uint32_t tile, const lrb_event **events, uint32_t *count, base_error *err);
+/** The same into memory of the caller's, with room for `room` events. */
+base_status trace_source_read(trace_source *s, lrb_event *events, uint32_t room, uint32_t *count, base_error *err);
 
 #endif

@@ -14,8 +14,7 @@ struct trace_source {
     const trace_reader *reader;
     trace_decoder *decoder;
     trace_column packed; /* the tile as in the file */
-    lrb_event *events;
-    size_t room;         /* for events */
+    lrb_event *events;   /* LRB_BATCH of them */
     char what[300];      /* file and tile, for errors */
 };
 
@@ -25,8 +24,7 @@ base_status trace_source_create(const trace_reader *r, trace_source **out, base_
     base_status status = s ? trace_decoder_create(&s->decoder, err) : base_fail(err, BASE_ERR_NOMEM, r->path, "out of memory");
     if (status == BASE_OK) {
         s->reader = r;
-        s->room = LRB_BATCH;
-        s->events = malloc(s->room * sizeof *s->events);
+        s->events = malloc(LRB_BATCH * sizeof *s->events);
         if (!s->events)
             status = base_fail(err, BASE_ERR_NOMEM, r->path, "out of memory");
     }
@@ -69,17 +67,7 @@ base_status trace_source_next(trace_source *s, const lrb_event **events, uint32_
     return trace_decoder_next(s->decoder, s->events, LRB_BATCH, count, err);
 }
 
-base_status trace_source_tile(trace_source *s, uint32_t tile, const lrb_event **events, uint32_t *count, base_error *err)
+base_status trace_source_read(trace_source *s, lrb_event *events, uint32_t room, uint32_t *count, base_error *err)
 {
-    uint32_t size = s->reader->index[tile].events;
-    base_status status = trace_source_seek(s, tile, err);
-    if (status == BASE_OK && size > s->room) {
-        lrb_event *more = realloc(s->events, size * sizeof *more);
-        if (!more)
-            return base_fail(err, BASE_ERR_NOMEM, s->what, "out of memory for %" PRIu32 " events", size);
-        s->events = more;
-        s->room = size;
-    }
-    *events = s->events;
-    return status == BASE_OK ? trace_decoder_next(s->decoder, s->events, size, count, err) : status;
+    return trace_decoder_next(s->decoder, events, room, count, err);
 }

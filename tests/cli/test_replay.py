@@ -11,14 +11,14 @@ MACHINES = sys.argv[2]
 def trace__any_model_and_jobs__same_bytes(folder):
     traces = []
     for kernel in ('packet16-primary', 'mft-primary'):
-        for model in ('native', 'count', 'issue'):
+        for model in ('native', 'count', 'issue', 'core'):
             for jobs in ('1', '2', '5'):
                 path = folder + '/t.ltr'
                 traced = stats_of(kernel, *SMALL, '--model', model, '--jobs', jobs, '--trace', path)
                 plain = stats_of(kernel, *SMALL, '--model', model)
                 assert numbers(traced) == numbers(plain)
                 traces.append(open(path, 'rb').read())
-    assert len(set(traces)) == 2 and all(trace == traces[0] for trace in traces[:9])
+    assert len(set(traces)) == 2 and all(trace == traces[0] for trace in traces[:12])
 
 
 def numbers(stats):
@@ -41,7 +41,7 @@ def replay__every_machine_and_model__as_a_live_run(folder):
     for kernel in ('packet16-primary', 'mft-primary'):
         path = folder + '/t.ltr'
         stats_of(kernel, *SMALL, '--trace', path, '--param', 'cull_backface=1')
-        for model in ('count', 'issue'):
+        for model in ('count', 'issue', 'core'):
             live = [numbers(stats_of(kernel, *SMALL, '--model', model, '--machine', m, '--param', 'cull_backface=1')) for m in machines]
             for jobs in ('1', '3'):
                 alone = [numbers(replayed(path, '--model', model, '--machine', m, '--jobs', jobs)) for m in machines]
@@ -50,6 +50,15 @@ def replay__every_machine_and_model__as_a_live_run(folder):
                 assert together['schema'] == 'lanetrace-stats-list-1' and [numbers(r) for r in together['runs']] == live
         assert numbers(replayed(path, '--set', 'vector_compare.latency=6', '--set', 'issue_gap=2')) == \
             numbers(stats_of(kernel, *SMALL, '--set', 'vector_compare.latency=6', '--set', 'issue_gap=2', '--param', 'cull_backface=1'))
+
+
+def replay__several_cores__as_a_live_run(folder):
+    path = folder + '/t.ltr'
+    for cores in ('2', '5'):
+        live = [numbers(stats_of('mft-primary', *SMALL, '--set', 'cores=' + cores, '--jobs', j, '--trace', path)) for j in ('1', '3')]
+        assert live[0] == live[1]
+        for jobs in ('1', '2', '4'):
+            assert numbers(replayed(path, '--set', 'cores=' + cores, '--jobs', jobs)) == live[0]
 
 
 def replay__table__that_of_run_kernel(folder):

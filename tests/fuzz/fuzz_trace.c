@@ -1,5 +1,6 @@
 /* libFuzzer target for traces. Inputs that begin with the letter C are a tile's columns, behind its number of events; all others
  * are a whole file. Whatever is accepted must be events that the simulator takes. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
