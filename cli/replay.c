@@ -5,12 +5,13 @@
 
 #include "cli/clock.h"
 #include "cli/command.h"
+#include "cli/replay_export.h"
 #include "cli/replay_run.h"
 #include "cli/stats.h"
 #include "lrbni/base/output_file.h"
 #include "lrbni/base/parallel.h"
 
-enum { KEY_MACHINE = 256, KEY_SET, KEY_MODEL, KEY_JOBS, KEY_STATS };
+enum { KEY_MACHINE = 256, KEY_SET, KEY_MODEL, KEY_JOBS, KEY_STATS, KEY_EXPORT, KEY_OUT, KEY_TILES };
 
 static const struct argp_option option_table[] = {
     {"machine", KEY_MACHINE, "M", 0, "a machine (see lanetrace machines), or a description's path; repeatable: several are timed in one pass; default larrabee", 1},
@@ -18,12 +19,15 @@ static const struct argp_option option_table[] = {
     {"model", KEY_MODEL, "M", 0, "count, issue or core: how much of the machine is modelled; default core", 1},
     {"jobs", KEY_JOBS, "N", 0, "host threads; results do not depend on it; default: all", 1},
     {"stats", KEY_STATS, "FILE", 0, "JSON statistics, - for stdout; default: a table on stdout", 2},
+    {"export", KEY_EXPORT, "FORM", 0, "instead of statistics, the events and their cycles: konata (a log for the pipeline viewer), chrome (JSON of Chrome's trace viewer and Perfetto) or csv; needs --out", 3},
+    {"out", KEY_OUT, "FILE", 0, "where --export goes, - for stdout", 3},
+    {"tiles", KEY_TILES, "A..B", 0, "tiles to export, the first and the last, or one; default: all", 3},
     {0},
 };
 
 typedef struct arguments {
     base_error *err;
-    const char *trace, *model, *jobs, *stats;
+    const char *trace, *model, *jobs, *stats, *form, *out, *tiles;
     command_list machines, sets;
 } arguments;
 
@@ -36,6 +40,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_MODEL: a->model = text; return 0;
     case KEY_JOBS: a->jobs = text; return 0;
     case KEY_STATS: a->stats = text; return 0;
+    case KEY_EXPORT: a->form = text; return 0;
+    case KEY_OUT: a->out = text; return 0;
+    case KEY_TILES: a->tiles = text; return 0;
     case ARGP_KEY_ARG:
         if (a->trace) {
             base_fail(a->err, BASE_ERR_USAGE, text, "one trace at a time: '%s' was given already", a->trace);
@@ -50,7 +57,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 
 static const struct argp argp = {
     option_table, parse, "TRACE",
-    "Time a trace, recorded with run-kernel --trace, on one or several machines.\v"
+    "Time a trace, recorded with run-kernel --trace, on one or several machines, or export it for other programs.\v"
     "Counts, ops and cycles are, digit for digit, those of run-kernel on that machine.",
     NULL, NULL, NULL,
 };
@@ -58,6 +65,7 @@ static const struct argp argp = {
 /* What the arguments say, checked, and what comes of it. */
 typedef struct plan {
     replay_options options;
+    replay_export_options export; /* if arguments.form is there */
     trace_reader *trace;
     identity id;
     sim_machine **machines;
@@ -118,6 +126,49 @@ static base_status open_trace(const arguments *a, plan *p, base_error *err)
     return status;
 }
 
+static base_status find_form(const char *name, trace_export_kind *out, base_error *err)
+{
+    for (int i = 0; i < TRACE_EXPORT_KINDS; i++)
+        if (strcmp(name, trace_export_names[i]) == 0) {
+            *out = (trace_export_kind)i;
+            return BASE_OK;
+        }
+    return base_fail(err, BASE_ERR_USAGE, "--export", "no form '%s' (there are konata, chrome, csv)", name);
+}
+
+/* "3..17" or "5", of a trace with so many tiles. */
+static base_status read_tiles(const char *text, uint32_t tiles, replay_export_options *out, base_error *err)
+{
+    char *end = NULL;
+    unsigned long first = strtoul(text, &end, 10), last = first;
+    bool good = *text >= '0' && *text <= '9';
+    if (good && strncmp(end, "..", 2) == 0) {
+        good = end[2] >= '0' && end[2] <= '9';
+        last = strtoul(end + 2, &end, 10);
+    }
+    if (!good || *end || first > last || last >= tiles)
+        return base_fail(err, BASE_ERR_USAGE, "--tiles", "'%s' is no tile, and no first and last of tiles, in 0..%u", text, tiles - 1);
+    out->first = (uint32_t)first;
+    out->last = (uint32_t)last;
+    return BASE_OK;
+}
+
+static base_status plan_export(const arguments *a, plan *p, base_error *err)
+{
+    if (!a->form && (a->out || a->tiles))
+        return base_fail(err, BASE_ERR_USAGE, a->out ? "--out" : "--tiles", "needs --export FORM");
+    if (!a->form)
+        return BASE_OK;
+    if (!a->out)
+        return base_fail(err, BASE_ERR_USAGE, "--export", "needs --out FILE");
+    if (a->stats || p->count > 1)
+        return base_fail(err, BASE_ERR_USAGE, "--export", a->stats ? "no --stats beside it" : "one machine at a time");
+    if (p->options.model == RUN_COUNT)
+        return base_fail(err, BASE_ERR_USAGE, "--export", "model count issues nothing in any cycle (take issue or core)");
+    p->export.model = p->options.model;
+    return find_form(a->form, &p->export.kind, err);
+}
+
 static base_status make_plan(const arguments *a, plan *p, base_error *err)
 {
     if (!a->trace)
@@ -126,10 +177,15 @@ static base_status make_plan(const arguments *a, plan *p, base_error *err)
     if (status == BASE_OK)
         status = plan_machines(a, p, err);
     if (status == BASE_OK)
-        status = check_output(a->stats, err);
+        status = plan_export(a, p, err);
+    if (status == BASE_OK)
+        status = check_output(a->form ? a->out : a->stats, err);
     if (status == BASE_OK)
         status = open_trace(a, p, err);
-    return status;
+    if (status != BASE_OK || !a->form)
+        return status;
+    p->export.last = trace_reader_tiles(p->trace) - 1;
+    return a->tiles ? read_tiles(a->tiles, trace_reader_tiles(p->trace), &p->export, err) : BASE_OK;
 }
 
 /* One machine: its statistics, as run-kernel writes them; several: all of them in a list. */
@@ -172,6 +228,27 @@ static base_status write_results(const arguments *a, const plan *p, base_error *
     return status;
 }
 
+static base_status write_export(const arguments *a, const plan *p, base_error *err)
+{
+    base_output out;
+    base_status status = base_output_begin(a->out, true, &out, err);
+    if (status != BASE_OK)
+        return status;
+    status = replay_export(p->trace, &p->id, p->machines[0], &p->export, out.stream, err);
+    if (status == BASE_OK)
+        return base_output_commit(&out, err);
+    base_output_abort(&out);
+    return status;
+}
+
+static base_status run_plan(const arguments *a, plan *p, base_error *err)
+{
+    if (a->form)
+        return write_export(a, p, err);
+    base_status status = replay_run(p->trace, &p->id, p->machines, p->count, &p->options, p->results, err);
+    return status == BASE_OK ? write_results(a, p, err) : status;
+}
+
 static void destroy_plan(plan *p)
 {
     for (size_t i = 0; p->results && i < p->count; i++)
@@ -193,9 +270,7 @@ int command_replay(int argc, char **argv)
     if (status == BASE_OK)
         status = make_plan(&a, &p, &err);
     if (status == BASE_OK)
-        status = replay_run(p.trace, &p.id, p.machines, p.count, &p.options, p.results, &err);
-    if (status == BASE_OK)
-        status = write_results(&a, &p, &err);
+        status = run_plan(&a, &p, &err);
     destroy_plan(&p);
     command_list_free(&a.machines);
     command_list_free(&a.sets);
