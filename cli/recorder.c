@@ -37,9 +37,12 @@ static void append(void *user, const lrb_event *events, uint32_t count)
     r->count += count;
 }
 
-base_status recorder_create(const recorder_input *input, unsigned worker, recorder *out, base_error *err)
+base_status recorder_create(const recorder_input *input, const sim_machine *machine, unsigned worker, recorder *out, base_error *err)
 {
     *out = (recorder){.input = input, .worker = worker};
+    base_status status = sim_chain_meter_create(machine, &out->meter, err);
+    if (status != BASE_OK)
+        return status;
     return input->replayed ? trace_source_create(input->replayed, &out->source, err) : lrb_ctx_create(append, out, &out->ctx, err);
 }
 
@@ -47,6 +50,7 @@ void recorder_destroy(recorder *r)
 {
     lrb_ctx_destroy(&r->ctx);
     trace_source_destroy(&r->source);
+    sim_chain_meter_destroy(&r->meter);
 }
 
 static base_status out_of_memory(base_error *err)
@@ -102,5 +106,8 @@ base_status recorder_tile(recorder *r, size_t tile, recording *into, base_error 
     r->into = into;
     into->count = 0;
     into->failed = !grow(into, 1);
-    return r->source ? read_tile(r, (uint32_t)tile, into, err) : record_tile(r, (uint32_t)tile, into, err);
+    base_status status = r->source ? read_tile(r, (uint32_t)tile, into, err) : record_tile(r, (uint32_t)tile, into, err);
+    if (status == BASE_OK)
+        sim_chain_meter_tile(r->meter, into->events, into->count, &r->chains);
+    return status;
 }

@@ -7,6 +7,8 @@
 
 #include "cli/run_trace.h"
 #include "kernels/kernel.h"
+#include "sim/bounds.h"
+#include "sim/observer.h"
 #include "traces/reader.h"
 
 /* The events of a tile; the buffer is used again for the next one. */
@@ -19,6 +21,14 @@ typedef struct recording {
 /** Free what a recording owns. */
 void recording_free(recording *r);
 
+/* Someone who looks on while a core simulates tiles. */
+typedef struct core_watch {
+    void (*begin_tile)(void *user, unsigned thread, size_t tile);
+    void (*end_tile)(void *user, unsigned thread);
+    sim_observer *observer;
+    void *user; /* of all three */
+} core_watch;
+
 /* Where tiles come from, and what becomes of them besides. */
 typedef struct recorder_input {
     size_t tiles;
@@ -26,7 +36,8 @@ typedef struct recorder_input {
     const kernel_job *job;
     kernel_counts *tile_counts; /* out: by tile, or NULL */
     run_trace *trace;           /* takes what the kernel records; its writer may be NULL */
-    const trace_reader *replayed; /* of a replay: the trace; all else is NULL */
+    const trace_reader *replayed; /* of a replay: the trace; none of the above then */
+    const core_watch *watch;      /* or NULL; of a single core */
 } recorder_input;
 
 /* What one host thread records with. */
@@ -36,15 +47,17 @@ typedef struct recorder {
     lrb_ctx *ctx;    /* of a run */
     trace_source *source; /* of a replay */
     kernel_counts counts; /* of all tiles so far */
+    sim_chain_meter *meter;
+    sim_chains chains;    /* of all tiles so far */
     recording *into;
 } recorder;
 
 /**
- * @param input  not owned; must outlive the recorder
+ * @param input, machine  not owned; must outlive the recorder
  *
  * Errors: BASE_ERR_NOMEM. The recorder must not move until recorder_destroy, which is allowed after a failure.
  */
-base_status recorder_create(const recorder_input *input, unsigned worker, recorder *out, base_error *err);
+base_status recorder_create(const recorder_input *input, const sim_machine *machine, unsigned worker, recorder *out, base_error *err);
 
 /** Free what a recorder owns. */
 void recorder_destroy(recorder *r);

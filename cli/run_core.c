@@ -12,6 +12,7 @@
 typedef struct core_run {
     run_result *result;
     size_t tiles;
+    const core_watch *watch; /* or NULL */
     progress *bar;
     unsigned worker;
     size_t next, step;      /* its next tile, and how far the one after it is */
@@ -45,6 +46,8 @@ static base_status next_tile(void *user, unsigned thread, const lrb_event **even
         return status;
     *events = tile->events;
     *count = tile->count;
+    if (r->watch)
+        r->watch->begin_tile(r->watch->user, thread, r->tile[thread]);
     return BASE_OK;
 }
 
@@ -54,6 +57,8 @@ static void tile_done(void *user, unsigned thread, const uint64_t regions[SIM_MA
     double *cycles = r->result->region_cycles;
     for (int i = 0; cycles && i <= SIM_MAX_REGIONS; i++)
         cycles[r->tile[thread] * (SIM_MAX_REGIONS + 1) + i] = (double)regions[i];
+    if (r->watch)
+        r->watch->end_tile(r->watch->user, thread);
     progress_step(r->bar, r->worker);
 }
 
@@ -71,6 +76,8 @@ static base_status simulate(core_run *r, sim_core_stats *stats, base_error *err)
         status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     if (status == BASE_OK)
         status = sim_core_create(r->result->machine, &core, err);
+    if (status == BASE_OK && r->watch)
+        sim_core_observe(core, r->watch->observer, r->watch->user);
     if (status == BASE_OK)
         status = sim_core_run(core, &feed, err);
     if (status == BASE_OK)
@@ -105,7 +112,7 @@ static void simulate_core(void *user, size_t core, unsigned worker)
 /* One core here, its tiles recorded ahead by the other host threads. */
 static base_status simulate_single(chip *c, unsigned jobs, base_error *err)
 {
-    core_run r = {.result = c->result, .tiles = c->input->tiles, .bar = c->bar, .step = 1, .recorder = &c->recorders[0]};
+    core_run r = {.result = c->result, .tiles = c->input->tiles, .watch = c->input->watch, .bar = c->bar, .step = 1, .recorder = &c->recorders[0]};
     base_status status = BASE_OK;
     if (jobs > 1)
         status = record_ahead_start(c->recorders + 1, jobs - 1, c->input->tiles, c->result->machine->threads, &r.ahead, err);
@@ -137,9 +144,11 @@ static void collect(const chip *c, unsigned jobs)
         sim_core_stats_idle(&c->stats[i], result->machine, result->cycles - c->stats[i].cycles);
         sim_core_stats_add(&result->core, &c->stats[i]);
     }
-    for (unsigned i = 0; i < jobs; i++)
+    for (unsigned i = 0; i < jobs; i++) {
+        sim_chains_add(&result->chains, &c->recorders[i].chains);
         for (int n = 0; n < KERNEL_COUNTER_COUNT; n++)
             result->counts.n[n] += c->recorders[i].counts.n[n];
+    }
     memcpy(result->ops, result->core.ops, sizeof result->ops);
     result->memory_operands = result->core.memory_operands;
     for (int phase = 0; phase < SIM_MAX_PHASES; phase++)
@@ -157,7 +166,7 @@ base_status run_core(run_result *result, const recorder_input *input, progress *
     if (!c.recorders || !c.stats || !c.errors)
         status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     for (unsigned i = 0; status == BASE_OK && i < jobs; i++)
-        status = recorder_create(input, i, &c.recorders[i], err);
+        status = recorder_create(input, result->machine, i, &c.recorders[i], err);
     if (status == BASE_OK)
         status = simulate_all(&c, jobs, err);
     if (status == BASE_OK)

@@ -45,6 +45,7 @@ typedef struct konata_line {
     uint64_t cycle; /* when */
     uint64_t order; /* of lines of the same cycle */
     uint64_t id;    /* in the log, once it has begun */
+    uint64_t maker[4]; /* ids of those that made its sources, once it has begun; KONATA_NOBODY: long ago */
 } konata_line;
 
 /* Ops under way, for Konata's log, whose lines must be in the order of their cycles. */
@@ -55,6 +56,7 @@ typedef struct konata_state {
     uint64_t *ids; /* by thread and number of the op modulo KONATA_REMEMBERED */
 } konata_state;
 enum { KONATA_REMEMBERED = 4096 };
+#define KONATA_NOBODY UINT64_MAX
 
 struct trace_export {
     const export_form *form;

@@ -78,10 +78,21 @@ static void write_op(trace_export *x, const lrb_event *e)
         fprintf(x->out, " %s", form);
 }
 
+/* Note who makes the op's sources: later their places may belong to other ops. */
+static void find_makers(trace_export *x, konata_line *line)
+{
+    for (int i = 0; i < 4; i++) {
+        uint32_t distance = line->e.event.src[i];
+        bool remembered = distance && distance <= line->e.number && distance < KONATA_REMEMBERED;
+        line->maker[i] = remembered ? *id_of(x, line->e.thread, line->e.number - distance) : KONATA_NOBODY;
+    }
+}
+
 /* An op begins to wait. */
 static void write_begin(trace_export *x, konata_line *line)
 {
     const export_event *e = &line->e;
+    find_makers(x, line);
     line->id = x->konata.next_id++;
     *id_of(x, e->thread, e->number) = line->id;
     fprintf(x->out, "I\t%" PRIu64 "\t%" PRIu32 "\t%u\nL\t%" PRIu64 "\t0\t", line->id, e->number, e->thread, line->id);
@@ -99,11 +110,9 @@ static void write_issue(trace_export *x, const konata_line *line)
     if (e->before < e->cycle)
         fprintf(x->out, "E\t%" PRIu64 "\t0\tW\n", line->id);
     fprintf(x->out, "S\t%" PRIu64 "\t0\t%s\n", line->id, e->in_v ? "V" : "U");
-    for (int i = 0; i < 4; i++) {
-        uint32_t distance = e->event.src[i];
-        if (distance && distance <= e->number && distance < KONATA_REMEMBERED)
-            fprintf(x->out, "W\t%" PRIu64 "\t%" PRIu64 "\t0\n", line->id, *id_of(x, e->thread, e->number - distance));
-    }
+    for (int i = 0; i < 4; i++)
+        if (line->maker[i] != KONATA_NOBODY)
+            fprintf(x->out, "W\t%" PRIu64 "\t%" PRIu64 "\t0\n", line->id, line->maker[i]);
 }
 
 static void write_retire(trace_export *x, const konata_line *line)
