@@ -8,7 +8,7 @@
  * - an address is that of another access through the same base register, plus the difference of the two sites;
  * - a branch goes where it went when the branches before it went the same ways.
  * The encoder writes down only what differs; the decoder expects the same and needs nothing else. Prediction as a way to
- * compress traces: Burtscher, "VPC3: a fast and effective trace-compression algorithm", SIGMETRICS 2004.
+ * compress traces: VPC3 (docs/bibliography.md).
  */
 #ifndef TRACES_PREDICTOR_H
 #define TRACES_PREDICTOR_H
