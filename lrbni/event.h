@@ -18,8 +18,29 @@
 #define LRB_FORM_REGISTER 0x0000u
 #define LRB_FORM_SWIZZLE 0x1000u /* a register, its lanes swizzled within groups of four */
 #define LRB_FORM_MEMORY 0x2000u  /* memory: source 1 is the address register */
-#define LRB_FORM_CONVERT 0x4000u /* memory: broadcast or up-converted on the way; {1to16} unless ... */
-#define LRB_FORM_4TO16 0x8000u   /* ... with CONVERT: {4to16} */
+/* Vector loads and S3 in memory: how many bytes are read, whatever the mask; none of these: the words of the mask. */
+#define LRB_FORM_BYTES 0xd000u
+#define LRB_FORM_4_BYTES 0x4000u  /* {1to16} of 32-bit elements */
+#define LRB_FORM_8_BYTES 0x5000u  /* {1to8} */
+#define LRB_FORM_16_BYTES 0xc000u /* {4to16}; 16 elements of 8 bits */
+#define LRB_FORM_32_BYTES 0xd000u /* {4to8}; 16 elements of 16 bits */
+
+/** Bytes that a vector access of that form touches, from its address on; 0: the 32-bit words of its mask. */
+static inline uint32_t lrb_form_bytes(unsigned form)
+{
+    switch (form & LRB_FORM_BYTES) {
+    case LRB_FORM_4_BYTES:
+        return 4;
+    case LRB_FORM_8_BYTES:
+        return 8;
+    case LRB_FORM_16_BYTES:
+        return 16;
+    case LRB_FORM_32_BYTES:
+        return 32;
+    default:
+        return 0;
+    }
+}
 
 typedef struct lrb_event {
     uint16_t op;     /* id and form */

@@ -32,6 +32,18 @@ typedef struct lrb_v16i {
     LRB_ORIGIN
 } lrb_v16i;
 
+/* 8 doubles in a vector register; bits 7 to 0 of a mask are theirs, the others are not looked at (ISAM 2.1.2). */
+typedef struct lrb_v8d {
+    lrb_f64x8 lanes;
+    LRB_ORIGIN
+} lrb_v8d;
+
+/* 8 integers of 64 bits in a vector register. */
+typedef struct lrb_v8q {
+    lrb_i64x8 lanes;
+    LRB_ORIGIN
+} lrb_v8q;
+
 /* A mask register: bit i is lane i, bits 16 and up are 0. */
 typedef struct lrb_k16 {
     uint32_t bits;
@@ -67,19 +79,18 @@ typedef struct lrb_mem {
 } lrb_mem;
 
 /* The operand that the ISA calls S3: the last source, in a register, swizzled on the way, or in memory. */
-typedef struct lrb_s3f {
-    lrb_f32x16 lanes;
-    uint32_t address;
-    uint16_t form; /* LRB_FORM_ bits */
-    LRB_ORIGIN
-} lrb_s3f;
-
-typedef struct lrb_s3i {
-    lrb_i32x16 lanes;
-    uint32_t address;
-    uint16_t form;
-    LRB_ORIGIN
-} lrb_s3i;
+#define LRB_S3(name, type)                      \
+    typedef struct name {                       \
+        type lanes;                             \
+        uint32_t address;                       \
+        uint16_t form; /* LRB_FORM_ bits */     \
+        LRB_ORIGIN                              \
+    } name
+LRB_S3(lrb_s3f, lrb_f32x16);
+LRB_S3(lrb_s3i, lrb_i32x16);
+LRB_S3(lrb_s3d, lrb_f64x8);
+LRB_S3(lrb_s3q, lrb_i64x8);
+#undef LRB_S3
 
 #if LRB_LEVEL == LRB_RECORD
 #define LRB_FROM(value) ((value).from)

@@ -72,7 +72,6 @@ void core_settle(sim_core *s, core_thread *h, uint64_t cycle)
     if (cycle <= h->waits_from)
         return;
     s->thread_waited[s->why[t]] += (ready_at < cycle ? ready_at : cycle) - h->waits_from;
-    s->other_thread += ready_at < cycle ? cycle - ready_at : 0;
     h->waits_from = cycle;
 }
 

@@ -38,15 +38,26 @@ static void collect_waits(const uint64_t waited[SIM_BUCKETS], sim_cycles *to)
     to->prefetches = waited[SIM_BUCKET_PREFETCHES];
 }
 
+static uint64_t sum_of(const sim_cycles *cycles)
+{
+    const uint64_t *bucket = (const uint64_t *)cycles;
+    uint64_t sum = 0;
+    for (size_t i = 0; i < sizeof *cycles / sizeof *bucket; i++)
+        sum += bucket[i];
+    return sum;
+}
+
+/* The gaps of a thread lie between its issues; what of all cycles is in no other bucket was the core's gaps, and the
+   turns of other threads. */
 sim_core_stats sim_core_get(const sim_core *s)
 {
     sim_core_stats stats = s->stats;
     collect_issues(s, &stats);
     collect_waits(s->core_waited, &stats.core);
     collect_waits(s->thread_waited, &stats.threads);
-    stats.core.gap = s->core_gap;
-    stats.threads.gap = s->thread_gap;
-    stats.threads.other_thread = s->other_thread;
+    stats.threads.gap = (stats.core.issued_one + stats.core.issued_pair - s->runs_of_threads) * (s->gap - 1);
+    stats.core.gap = stats.cycles - sum_of(&stats.core);
+    stats.threads.other_thread = stats.cycles * s->threads - sum_of(&stats.threads);
     stats.memory = s->memory->counts;
     return stats;
 }

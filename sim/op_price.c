@@ -21,14 +21,14 @@ static sim_consumer consumer_of(char read)
     }
 }
 
-static void consumers_of(lrb_op_id id, unsigned form, uint8_t consumer[SIM_MAX_SOURCES])
+static void consumers_of(lrb_op_id id, unsigned form, uint16_t consumer[SIM_MAX_SOURCES])
 {
     const char *reads = lrb_shape_table[lrb_op_table[id].shape].reads;
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)
-        consumer[i] = (uint8_t)consumer_of(reads[i]);
+        consumer[i] = (uint16_t)consumer_of(reads[i]);
     if (form & LRB_FORM_MEMORY)
         consumer[1] = SIM_CONSUMER_ADDRESS;
-    else if (form & LRB_FORM_SWIZZLE)
+    else if (form & LRB_FORM_SWIZZLE && lrb_op_access_of(id) == LRB_ACCESS_NONE)
         consumer[1] = SIM_CONSUMER_SHUFFLE;
 }
 
@@ -94,14 +94,14 @@ static void price_op(sim_op_price *p, const sim_machine *machine, lrb_op_id id, 
     p->class_id = (uint8_t)k;
     p->partners = partners_of(machine, k);
     bool of_lines = k == LRB_CLASS_vector_gather || k == LRB_CLASS_vector_scatter; /* the lanes lie anywhere in a line */
-    p->words = of_lines ? 0xffff : form & LRB_FORM_4TO16 ? 0xf : form & LRB_FORM_CONVERT || !is_vector ? 1 : 0;
+    p->words = of_lines ? 0xffff : is_vector ? (1u << lrb_form_bytes(form) / 4) - 1 : 1;
     p->word_shift = of_lines ? 0 : 15;
     p->lanes = is_vector ? 0xffff : 0;
     p->flags = flags_of(id, form, cost);
     p->store_latency = cost->latency;
     p->busy = (uint16_t)((cost->throughput + 1) / 2);
     p->blocking = (uint16_t)cost->blocking;
-    p->bytes = form & LRB_FORM_4TO16 ? 16 : form & LRB_FORM_CONVERT || !is_vector ? 4 : 64;
+    p->bytes = (uint8_t)(!is_vector ? 4 : lrb_form_bytes(form) ? lrb_form_bytes(form) : 64);
 }
 
 sim_op_price *sim_op_prices(const sim_machine *machine)

@@ -11,5 +11,9 @@ static inline lrb_f32x16 lanes_mask_load_ps(lrb_f32x16 old, uint32_t k, const vo
 }
 static inline void lanes_store_ps(void *m, lrb_f32x16 a) { lanes_store_pi(m, lanes_bits_ps(a)); }
 static inline void lanes_mask_store_ps(void *m, uint32_t k, lrb_f32x16 a) { lanes_mask_store_pi(m, k, lanes_bits_ps(a)); }
+static inline lrb_i32x16 lanes_swizzle_pi(lrb_i32x16 a, unsigned words)
+{
+    return lanes_bits_ps(lanes_swizzle_ps(lanes_bits_pi(a), words));
+}
 
 #endif

@@ -71,6 +71,24 @@ LRB_INLINE uint32_t lrb_emit_masked(lrb_ctx *c, unsigned op, unsigned form, lrb_
     return lrb_emit(c, op, form, k.bits, s0, s1, LRB_FROM(k), s3, aux);
 }
 
+/* The 32-bit words that a mask of 8 lanes of 64 bits selects: each bit twice. */
+LRB_INLINE uint32_t lrb_words_of_mask8(uint32_t bits)
+{
+    bits &= 0xff;
+    bits = (bits | bits << 4) & 0x0f0fu;
+    bits = (bits | bits << 2) & 0x3333u;
+    bits = (bits | bits << 1) & 0x5555u;
+    return bits * 3;
+}
+
+/* lrb_emit_masked for an op of 8 lanes. */
+LRB_INLINE uint32_t lrb_emit_masked8(lrb_ctx *c, unsigned op, unsigned form, lrb_k16 k, uint32_t s0, uint32_t s1, uint32_t s3,
+                                     uint32_t aux)
+{
+    k.bits = lrb_words_of_mask8(k.bits);
+    return lrb_emit_masked(c, op, form, k, s0, s1, s3, aux);
+}
+
 /* Hashes of streams, which are to be equal everywhere, go over the bytes of events: the layout on the hosts there are. */
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
 #error "events are known on little-endian hosts only"

@@ -20,14 +20,14 @@
     {                                                                                                     \
         LRB_ASSERT_ALIGNED(m, 4);                                                                         \
         lrb_v16##type d = {.lanes = lanes_load_1to16_##suffix(m.host)};                                   \
-        LRB_LOAD_FORM(d, c, load_##suffix, m, LRB_FORM_CONVERT);                                          \
+        LRB_LOAD_FORM(d, c, load_##suffix, m, LRB_FORM_4_BYTES);                                          \
         return d;                                                                                         \
     }                                                                                                     \
     LRB_INLINE lrb_v16##type lrb_load_4to16_##suffix(lrb_ctx *c, lrb_mem m)                               \
     {                                                                                                     \
         LRB_ASSERT_ALIGNED(m, 16);                                                                        \
         lrb_v16##type d = {.lanes = lanes_load_4to16_##suffix(m.host)};                                   \
-        LRB_LOAD_FORM(d, c, load_##suffix, m, LRB_FORM_CONVERT | LRB_FORM_4TO16);                                          \
+        LRB_LOAD_FORM(d, c, load_##suffix, m, LRB_FORM_16_BYTES);                                          \
         return d;                                                                                         \
     }                                                                                                     \
     LRB_INLINE lrb_v16##type lrb_mask_load_##suffix(lrb_ctx *c, lrb_v16##type old, lrb_k16 k, lrb_mem m)  \

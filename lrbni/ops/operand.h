@@ -78,34 +78,35 @@ typedef enum lrb_swizzle {
     LRB_DACB = 0xc9 /* the rotation that cross products need: 1 2 0 3 */
 } lrb_swizzle;
 
-/** S3 from a register as it is. */
-LRB_INLINE lrb_s3f lrb_reg_ps(lrb_v16f v)
-{
-    lrb_s3f s = {.lanes = v.lanes, .form = LRB_FORM_REGISTER};
-    LRB_SET_FROM(s, LRB_FROM(v));
-    return s;
-}
-
-LRB_INLINE lrb_s3i lrb_reg_pi(lrb_v16i v)
-{
-    lrb_s3i s = {.lanes = v.lanes, .form = LRB_FORM_REGISTER};
-    LRB_SET_FROM(s, LRB_FROM(v));
-    return s;
-}
-
-/** S3 from a register, its lanes swizzled within each group of four. */
-LRB_INLINE lrb_s3f lrb_swizzle_ps(lrb_v16f v, lrb_swizzle words)
-{
-    lrb_s3f s = {.lanes = lanes_swizzle_ps(v.lanes, words), .form = LRB_FORM_SWIZZLE};
-    LRB_SET_FROM(s, LRB_FROM(v));
-    return s;
-}
-
-/* LRB_S3_MEMORY(f, ps): lrb_full_ps (64 bytes), lrb_1to16_ps (4 bytes to all lanes), lrb_4to16_ps (16 bytes to all groups) */
-#define LRB_S3_MEMORY(type, suffix)                                                                \
-    LRB_INLINE lrb_s3##type lrb_s3_memory_##suffix(lrb_mem m, lrb_##type##32x16 lanes, unsigned form) \
+/* LRB_S3_REGISTER(f, lrb_v16f, ps): lrb_reg_ps, lrb_swizzle_ps */
+#define LRB_S3_REGISTER(type, vector, suffix)                                                      \
+    /** S3 from a register as it is. */                                                            \
+    LRB_INLINE lrb_s3##type lrb_reg_##suffix(vector v)                                             \
     {                                                                                              \
-        lrb_s3##type s = {.lanes = lanes, .address = m.address, .form = (uint16_t)(LRB_FORM_MEMORY | form)}; \
+        lrb_s3##type s = {.lanes = v.lanes, .form = LRB_FORM_REGISTER};                            \
+        LRB_SET_FROM(s, LRB_FROM(v));                                                              \
+        return s;                                                                                  \
+    }                                                                                              \
+    /** S3 from a register, its lanes swizzled within each group of four. */                       \
+    LRB_INLINE lrb_s3##type lrb_swizzle_##suffix(vector v, lrb_swizzle words)                      \
+    {                                                                                              \
+        lrb_s3##type s = {.lanes = lanes_swizzle_##suffix(v.lanes, words), .form = LRB_FORM_SWIZZLE}; \
+        LRB_SET_FROM(s, LRB_FROM(v));                                                              \
+        return s;                                                                                  \
+    }
+LRB_S3_REGISTER(f, lrb_v16f, ps)
+LRB_S3_REGISTER(i, lrb_v16i, pi)
+LRB_S3_REGISTER(d, lrb_v8d, pd)
+LRB_S3_REGISTER(q, lrb_v8q, pq)
+#undef LRB_S3_REGISTER
+
+/* LRB_S3_MEMORY(f, ps, 1to16, 4, 4to16, 16): lrb_full_ps (64 bytes), lrb_1to16_ps (4 bytes to all lanes), lrb_4to16_ps (16
+ * bytes, four lanes over and over) */
+#define LRB_S3_MEMORY(type, suffix, one, one_bytes, four, four_bytes)                              \
+    LRB_INLINE lrb_s3##type lrb_s3_memory_##suffix(lrb_mem m, lrb_s3##type s, unsigned form)       \
+    {                                                                                              \
+        s.address = m.address;                                                                     \
+        s.form = (uint16_t)(LRB_FORM_MEMORY | form);                                               \
         assert(LRB_INDEX_FROM(m) == 0 && "S3 takes no index register");                            \
         LRB_SET_FROM(s, LRB_BASE_FROM(m));                                                         \
         return s;                                                                                  \
@@ -114,22 +115,24 @@ LRB_INLINE lrb_s3f lrb_swizzle_ps(lrb_v16f v, lrb_swizzle words)
     LRB_INLINE lrb_s3##type lrb_full_##suffix(lrb_mem m)                                           \
     {                                                                                              \
         LRB_ASSERT_ALIGNED(m, 64);                                                                 \
-        return lrb_s3_memory_##suffix(m, lanes_load_##suffix(m.host), 0);                          \
+        return lrb_s3_memory_##suffix(m, (lrb_s3##type){.lanes = lanes_load_##suffix(m.host)}, 0); \
     }                                                                                              \
-    /** S3 from one element of memory, broadcast to all lanes: {1to16}. */                         \
-    LRB_INLINE lrb_s3##type lrb_1to16_##suffix(lrb_mem m)                                          \
+    /** S3 from one element of memory, broadcast to all lanes. */                                  \
+    LRB_INLINE lrb_s3##type lrb_##one##_##suffix(lrb_mem m)                                        \
     {                                                                                              \
-        LRB_ASSERT_ALIGNED(m, 4);                                                                  \
-        return lrb_s3_memory_##suffix(m, lanes_load_1to16_##suffix(m.host), LRB_FORM_CONVERT);     \
+        LRB_ASSERT_ALIGNED(m, one_bytes);                                                          \
+        return lrb_s3_memory_##suffix(m, (lrb_s3##type){.lanes = lanes_load_##one##_##suffix(m.host)}, LRB_FORM_##one_bytes##_BYTES); \
     }                                                                                              \
-    /** S3 from four elements of memory, repeated four times: {4to16}. */                          \
-    LRB_INLINE lrb_s3##type lrb_4to16_##suffix(lrb_mem m)                                          \
+    /** S3 from four elements of memory, repeated. */                                              \
+    LRB_INLINE lrb_s3##type lrb_##four##_##suffix(lrb_mem m)                                       \
     {                                                                                              \
-        LRB_ASSERT_ALIGNED(m, 16);                                                                 \
-        return lrb_s3_memory_##suffix(m, lanes_load_4to16_##suffix(m.host), LRB_FORM_CONVERT | LRB_FORM_4TO16);     \
+        LRB_ASSERT_ALIGNED(m, four_bytes);                                                         \
+        return lrb_s3_memory_##suffix(m, (lrb_s3##type){.lanes = lanes_load_##four##_##suffix(m.host)}, LRB_FORM_##four_bytes##_BYTES); \
     }
-LRB_S3_MEMORY(f, ps)
-LRB_S3_MEMORY(i, pi)
+LRB_S3_MEMORY(f, ps, 1to16, 4, 4to16, 16)
+LRB_S3_MEMORY(i, pi, 1to16, 4, 4to16, 16)
+LRB_S3_MEMORY(d, pd, 1to8, 8, 4to8, 32)
+LRB_S3_MEMORY(q, pq, 1to8, 8, 4to8, 32)
 #undef LRB_S3_MEMORY
 
 #endif

@@ -167,7 +167,7 @@ static void check_events(void *user, const lrb_event *events, uint32_t count)
                 complain(s, e, "a source before the stream began");
         int vector = lrb_op_kind_of((lrb_op_id)op) == LRB_KIND_VECTOR;
         if (vector && (e->op & LRB_FORM_MEMORY || lrb_op_is_memory((lrb_op_id)op)))
-            check_address(s, e, e->op & LRB_FORM_4TO16 ? 16 : e->op & LRB_FORM_CONVERT ? 4 : 64);
+            check_address(s, e, lrb_form_bytes(e->op) ? lrb_form_bytes(e->op) : 64);
         else if (lrb_op_is_memory((lrb_op_id)op))
             check_address(s, e, op == LRB_OP_load16 ? 2 : 4);
         s->ops++;

@@ -108,7 +108,7 @@ static inline uint32_t case_b(const vector_case *v, int lane)
 static inline void case_check_event(const lrb_ctx *c, unsigned op, const vector_case *v)
 {
     static const unsigned form_bits[S3_FORMS - S3_FULL] = {
-        LRB_FORM_MEMORY, LRB_FORM_MEMORY | LRB_FORM_CONVERT, LRB_FORM_MEMORY | LRB_FORM_CONVERT | LRB_FORM_4TO16};
+        LRB_FORM_MEMORY, LRB_FORM_MEMORY | LRB_FORM_4_BYTES, LRB_FORM_MEMORY | LRB_FORM_16_BYTES};
     const lrb_event *e = &c->events[0];
     unsigned bits = v->form >= S3_FULL ? form_bits[v->form - S3_FULL] : v->form >= S3_SWIZZLE ? LRB_FORM_SWIZZLE : 0;
     uint32_t address = v->form >= S3_FULL ? CASE_ADDRESS + (uint32_t)case_offset(v) : 0;

@@ -93,11 +93,11 @@ static void sequence__by_hand__every_field(void **state)
     check(&e[0], LRB_OP_mov, 0xffff, 0, 0, 0, 0, 0);
     check(&e[1], LRB_OP_lea, 0xffff, 0, 1, 0, 0, 0);
     check(&e[2], LRB_OP_load_ps, 0xffff, 1, 0, 0, 0, scratch + 256);
-    check(&e[3], LRB_OP_load_ps | LRB_FORM_CONVERT, 0xffff, 2, 3, 0, 0, scratch + 196);
+    check(&e[3], LRB_OP_load_ps | LRB_FORM_4_BYTES, 0xffff, 2, 3, 0, 0, scratch + 196);
     check(&e[4], LRB_OP_cmple_ps | LRB_FORM_SWIZZLE, 0xffff, 2, 1, 0, 0, 0);
     check(&e[5], LRB_OP_kand, 0xffff, 1, 0, 0, 0, 0);
     check(&e[6], LRB_OP_madd231_ps | LRB_FORM_MEMORY, 0x0f0f, 3, 5, 1, 4, scratch + 320);
-    check(&e[7], LRB_OP_mul_ps | LRB_FORM_MEMORY | LRB_FORM_CONVERT | LRB_FORM_4TO16, 0x8001, 1, 6, 0, 1, scratch + 208);
+    check(&e[7], LRB_OP_mul_ps | LRB_FORM_MEMORY | LRB_FORM_16_BYTES, 0x8001, 1, 6, 0, 1, scratch + 208);
     check(&e[8], LRB_OP_phase, 0, 0, 0, 0, 0, 77);
     check(&e[9], LRB_OP_store_ps, 0x0f0f, 7, 8, 3, 1, scratch + 256);
     check(&e[10], LRB_OP_kortest, 0xffff, 5, 4, 0, 0, 0);

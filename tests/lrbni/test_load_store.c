@@ -76,12 +76,12 @@ static void check_event(const lrb_ctx *c, unsigned op, uint32_t mask, uint32_t a
             lrb_ctx_begin(c);                                                                                    \
             lanes_store_##suffix(out, lrb_load_1to16_##suffix(c, at(f.memory, offset)).lanes);                   \
             check_lanes(&f, #id, offset, 0xffff, REF_LOAD_1TO16, ref_##id, out);                                 \
-            check_event(c, LRB_OP_##id | LRB_FORM_CONVERT, 0xffff, ADDRESS + (uint32_t)offset);                  \
+            check_event(c, LRB_OP_##id | LRB_FORM_4_BYTES, 0xffff, ADDRESS + (uint32_t)offset);                  \
             offset &= -16;                                                                                       \
             lrb_ctx_begin(c);                                                                                    \
             lanes_store_##suffix(out, lrb_load_4to16_##suffix(c, at(f.memory, offset)).lanes);                   \
             check_lanes(&f, #id, offset, 0xffff, REF_LOAD_4TO16, ref_##id, out);                                 \
-            check_event(c, LRB_OP_##id | LRB_FORM_CONVERT | LRB_FORM_4TO16, 0xffff, ADDRESS + (uint32_t)offset); \
+            check_event(c, LRB_OP_##id | LRB_FORM_16_BYTES, 0xffff, ADDRESS + (uint32_t)offset); \
             offset &= -64;                                                                                       \
             lrb_ctx_begin(c);                                                                                    \
             lanes_store_##suffix(out, lrb_load_##suffix(c, at(f.memory, offset)).lanes);                         \

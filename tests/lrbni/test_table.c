@@ -20,7 +20,7 @@ static void ids__all__fit_and_differ(void **state)
     (void)state;
     assert_true(LRB_OP_COUNT <= LRB_EVENT_ID + 1);
     assert_true((int)LRB_OP_COUNT <= ISSUE_MODEL_OPS);
-    assert_int_equal(LRB_EVENT_ID & (LRB_FORM_SWIZZLE | LRB_FORM_MEMORY | LRB_FORM_CONVERT | LRB_FORM_4TO16), 0);
+    assert_int_equal(LRB_EVENT_ID & (LRB_FORM_SWIZZLE | LRB_FORM_MEMORY | LRB_FORM_BYTES), 0);
     for (int i = 0; i < LRB_OP_COUNT; i++)
         for (int j = 0; j < i; j++)
             assert_string_not_equal(lrb_op_table[i].id, lrb_op_table[j].id);

@@ -61,8 +61,8 @@ static int takes_s3(lrb_shape shape)
 /* A form that the op can have. */
 static unsigned random_form(base_random *random, lrb_shape shape)
 {
-    static const unsigned broadcasts[] = {0, LRB_FORM_CONVERT, LRB_FORM_CONVERT | LRB_FORM_4TO16};
-    unsigned broadcast = broadcasts[below(random, 3)];
+    static const unsigned broadcasts[] = {0, LRB_FORM_4_BYTES, LRB_FORM_8_BYTES, LRB_FORM_16_BYTES, LRB_FORM_32_BYTES};
+    unsigned broadcast = broadcasts[below(random, 5)];
     if (shape == LRB_SHAPE_V_M || shape == LRB_SHAPE_VI_M)
         return broadcast;
     if (!takes_s3(shape))
@@ -95,7 +95,7 @@ static lrb_event random_op(base_random *random, const flavour *f)
     if (is_vector && below(random, 3) == 0)
         e.mask = (uint16_t)(below(random, 2) ? base_random_bits(random) : 1u << below(random, 16));
     if (lrb_op_access_of((lrb_op_id)id) != LRB_ACCESS_NONE || form & LRB_FORM_MEMORY) {
-        unsigned bytes = form & LRB_FORM_4TO16 ? 16 : form & LRB_FORM_CONVERT || !is_vector ? 4 : 64;
+        unsigned bytes = lrb_form_bytes(form) ? lrb_form_bytes(form) : is_vector ? 64 : 4;
         e.aux = random_address(random, f, id == LRB_OP_load16 ? 2 : bytes);
     } else if (lrb_op_table[id].class_id == LRB_CLASS_branch) {
         e.mask = (uint16_t)below(random, 2);

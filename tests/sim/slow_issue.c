@@ -81,7 +81,7 @@ static sim_consumer consumer_of(const lrb_event *e, int i)
     bool is_address = (is_load(e) || is_store(e) || info_of(e)->shape == LRB_SHAPE_H_M) ? i == 0 || i == 1 : (e->op & LRB_FORM_MEMORY) && i == 1;
     if (is_address)
         return SIM_CONSUMER_ADDRESS;
-    if ((e->op & LRB_FORM_SWIZZLE && i == 1) || (is_vector_store(e) && i == 3) ||
+    if ((e->op & LRB_FORM_SWIZZLE && !is_load(e) && i == 1) || (is_vector_store(e) && i == 3) ||
         (info_of(e)->class_id == LRB_CLASS_vector_permute && i == 0))
         return SIM_CONSUMER_SHUFFLE;
     if (info_of(e)->shape == LRB_SHAPE_B_F && i == 0)
@@ -108,9 +108,12 @@ static uint32_t words_touched(const lrb_event *e)
 {
     uint32_t words = 0;
     uint32_t first = e->aux % 64 / 4;
-    if (is_vector(e) && !(e->op & LRB_FORM_CONVERT))
+    static const uint32_t words_of_form[16] = {[0x4] = 1, [0x5] = 2, [0xc] = 4, [0xd] = 8}; /* event.h: the top bits of op */
+    uint32_t many = is_vector(e) ? words_of_form[(e->op & LRB_FORM_BYTES) >> 12] : 1;
+    if (info_of(e)->class_id == LRB_CLASS_vector_gather || info_of(e)->class_id == LRB_CLASS_vector_scatter)
+        return 0xffff;
+    if (many == 0)
         return e->mask;
-    uint32_t many = e->op & LRB_FORM_4TO16 ? 4 : 1;
     for (uint32_t word = first; word < first + many && word < 16; word++)
         words |= 1u << word;
     return words;

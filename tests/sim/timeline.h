@@ -22,8 +22,8 @@
 #define OP_AT(id, form, lanes, address, ...) \
     {.op = LRB_OP_##id | (form), .mask = (lanes), .src = {__VA_ARGS__}, .aux = (address)}
 #define MARK(id, number) {.op = LRB_OP_##id, .aux = (number)}
-#define BROADCAST_1 LRB_FORM_CONVERT
-#define BROADCAST_4 (LRB_FORM_CONVERT | LRB_FORM_4TO16)
+#define BROADCAST_1 LRB_FORM_4_BYTES
+#define BROADCAST_4 LRB_FORM_16_BYTES
 
 /* An event and the cycle in which it issues; for a marker, that of the last op before it. */
 typedef struct timeline_step {
