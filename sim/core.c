@@ -123,13 +123,15 @@ static inline void perform(sim_core *s, core_thread *h)
     sim_put_result(&h->results[h->next & (s->window - 1)], &p->latency, h->now);
     if (p->flags & ACCESS)
         access_memory(s, h, p, e);
-    if (p->flags & (SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT)) {
+    if (p->flags & (SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT | SIM_PRICE_TOLD)) {
         if (p->flags & SIM_PRICE_LASTING)
             core_outlast(s, h, p);
         if (p->flags & SIM_PRICE_BRANCH)
             core_take_branch(s, h, e);
         if (p->flags & SIM_PRICE_HINT)
             core_take_hint(s, h, e);
+        if (p->flags & SIM_PRICE_TOLD)
+            core_tell(s, h, e);
     }
     h->next++;
     h->op++;

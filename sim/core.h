@@ -19,6 +19,7 @@
 #include "sim/cycles.h"
 #include "sim/hierarchy.h"
 #include "sim/machine.h"
+#include "sim/observer.h"
 
 /* All members are plain sums, so that the stats of cores add up. */
 typedef struct sim_core_stats {
@@ -59,6 +60,9 @@ base_status sim_core_create(const sim_machine *machine, sim_core **out, base_err
 
 /** Free a core; sets the pointer to NULL. */
 void sim_core_destroy(sim_core **core);
+
+/** Tell `observer`, not NULL, of all events from now on. Cycles are those of the run, the first is 1. */
+void sim_core_observe(sim_core *core, sim_observer *observer, void *user);
 
 /**
  * Simulate all tiles that the feed gives. Events must have ids of ops.

@@ -19,11 +19,14 @@ static void end_region(core_thread *h, uint32_t next)
 
 static void pass(sim_core *s, core_thread *h, const lrb_event *markers, uint32_t count)
 {
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
+        if (s->observer)
+            core_tell(s, h, &markers[i]);
         if ((markers[i].op & LRB_EVENT_ID) == LRB_OP_phase)
             end_phase(s, h, markers[i].aux);
         else
             end_region(h, markers[i].aux);
+    }
 }
 
 /* One number for each source of an op, worked on together. */

@@ -36,6 +36,9 @@ struct sim_issue {
     uint64_t joins[LRB_CLASS_COUNT]; /* ops that joined another's cycle, by class */
     uint64_t waited[SIM_BUCKETS];
     sim_issue_stats stats;
+
+    sim_observer *observer; /* or NULL */
+    void *observer_user;
 };
 
 base_status sim_issue_create(const sim_machine *machine, sim_issue **out, base_error *err)
@@ -152,15 +155,29 @@ static void mark(sim_issue *s, const lrb_event *e)
         end_region(s, e->aux);
 }
 
-void sim_issue_events(void *simulator, const lrb_event *events, uint32_t count)
+/* Tell the observer of an event that the model has just passed; `before` is when the op before it issued. */
+static void tell(const sim_issue *s, const lrb_event *e, const sim_op_price *p, sim_blamed before)
 {
-    sim_issue *s = simulator;
+    bool marker = p->flags & SIM_PRICE_MARKER;
+    uint64_t cycle = cycles_so_far(s);
+    sim_issued issued = {.event = e, .cycle = cycle, .ready = cycle};
+    if (!marker) {
+        issued.ready += sim_time_of(p->latency.ready[SIM_CONSUMER_PLAIN]);
+        issued.in_v = s->pipe.next > 1 && s->pipe.now == before;
+    }
+    s->observer(s->observer_user, &issued);
+}
+
+/* The loop. Twice in the program, so that an observer that is not there costs nothing. */
+static inline void time_events(sim_issue *s, const lrb_event *events, uint32_t count, bool observed)
+{
     pipeline pipe = s->pipe;
     sim_result *const results = s->results;
     const uint32_t window = s->window;
     const sim_blamed gap = sim_blame(s->machine->issue_gap, SIM_BUCKET_NONE);
     for (const lrb_event *e = events; e < events + count; e++) {
         const sim_op_price *p = &s->price[e->op];
+        const sim_blamed before = pipe.now;
         s->ops[e->op & (OPS - 1)]++;
         if (p->flags & SIM_PRICE_MARKER) {
             s->pipe = pipe;
@@ -168,8 +185,27 @@ void sim_issue_events(void *simulator, const lrb_event *events, uint32_t count)
         } else {
             issue_op(s, &pipe, results, window, gap, p, e);
         }
+        if (observed) {
+            s->pipe = pipe;
+            tell(s, e, p, before);
+        }
     }
     s->pipe = pipe;
+}
+
+void sim_issue_events(void *simulator, const lrb_event *events, uint32_t count)
+{
+    sim_issue *s = simulator;
+    if (s->observer)
+        time_events(s, events, count, true);
+    else
+        time_events(s, events, count, false);
+}
+
+void sim_issue_observe(sim_issue *s, sim_observer *observer, void *user)
+{
+    s->observer = observer;
+    s->observer_user = user;
 }
 
 /* Ops that did not join issued first in their cycle. */
