@@ -1,4 +1,4 @@
-/* lanetrace kernels, scenes, machines, replay: what there is. */
+/* lanetrace kernels, scenes, machines: what there is. */
 #include <stdio.h>
 #include <string.h>
 
@@ -173,13 +173,4 @@ int command_machines(int argc, char **argv)
         return command_fail(&err);
     report_table *t = a.name ? machine_table(a.name, &err) : machines_table(&err);
     return t ? write_list(t, a.json, &err) : command_fail(&err);
-}
-
-int command_replay(int argc, char **argv)
-{
-    base_error err = {0};
-    list_arguments a = {.err = &err, .takes_name = true};
-    if (parse_list(argc, argv, "TRACE", "Time a recorded trace on another machine: not in this version, which records none.", &a) == BASE_OK)
-        base_fail(&err, BASE_ERR_UNSUPPORTED, "replay", "traces are not in this version");
-    return command_fail(&err);
 }

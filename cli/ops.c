@@ -135,7 +135,8 @@ static void write_page(FILE *out, const sim_machine *machine)
             "swizzled or in memory, and `lrb_mask_X`, `lrb_mask_X_s3` with the old destination and a mask before the sources.\n\n"
             "- *lane i*: what lane i of the result becomes; a, b are the sources in order, d the old destination, m memory, k masks, r general registers.\n"
             "- *mask*: `merge` keeps the old lanes where the mask has 0, `zero` gives 0 bits there, `select` does not touch memory there.\n"
-            "- *rounding*: `exact`: none happens; `nearest`: once, to nearest even; `assumed`: no public source tells, the formula is our rule.\n"
+            "- *rounding*: `exact`: none happens; `nearest`: once, to nearest even unless the machine's state says otherwise; `mode`: once, as an\n"
+            "  operand asks; `assumed`: no public source tells, the formula is our rule.\n"
             "- *chips*: L the original Larrabee, K Knights Corner, library: only in published intrinsics.\n"
             "- *pipes, latency, throughput*: where it may issue, cycles until its result may be used, cycles to the next of its class.\n"
             "- *source*: keys of [bibliography.md](bibliography.md).\n",

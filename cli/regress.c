@@ -9,7 +9,7 @@
 #include "cli/run.h"
 #include "cli/stats.h"
 #include "lrbni/base/parallel.h"
-#include "reports/output_file.h"
+#include "lrbni/base/output_file.h"
 #include "scene/builtin.h"
 
 enum { KEY_UPDATE = 256, KEY_BASELINES, KEY_JOBS, PATH_BYTES = 4096, SIZE = 256, FIELD_BYTES = 160 };
@@ -45,7 +45,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp argp = {
     option_table, parse, "[SUITE...]",
     "Measure the suites (all, if none is named) and compare every count, op and cycle with the stored baseline.\v"
-    "Exit code 1 if anything differs. Suites: mft-primary: both kernels on the built-in scenes at 256x256, on both machines.",
+    "Exit code 1 if anything differs. Suites: mft-primary: both kernels on the built-in scenes at 256x256, on larrabee and knc.",
     NULL, NULL, NULL,
 };
 
@@ -69,16 +69,16 @@ static base_status measure(json_t *runs, const scene *s, const kernel_info *kern
 
 static base_status measure_scene(json_t *runs, const scene *s, unsigned jobs, base_error *err)
 {
+    static const struct {
+        const char *machine;
+        run_model model;
+    } ways[] = {{"larrabee", RUN_COUNT}, {"larrabee", RUN_ISSUE}, {"knc", RUN_ISSUE}, {"larrabee", RUN_CORE}, {"knc", RUN_CORE}};
     size_t kernels;
     const kernel_info *kernel = kernel_list(&kernels);
     base_status status = BASE_OK;
-    for (size_t k = 0; status == BASE_OK && k < kernels; k++) {
-        status = measure(runs, s, &kernel[k], "larrabee", RUN_COUNT, jobs, err);
-        if (status == BASE_OK)
-            status = measure(runs, s, &kernel[k], "larrabee", RUN_ISSUE, jobs, err);
-        if (status == BASE_OK)
-            status = measure(runs, s, &kernel[k], "knc", RUN_ISSUE, jobs, err);
-    }
+    for (size_t k = 0; k < kernels; k++)
+        for (size_t w = 0; status == BASE_OK && w < sizeof ways / sizeof *ways; w++)
+            status = measure(runs, s, &kernel[k], ways[w].machine, ways[w].model, jobs, err);
     return status;
 }
 
@@ -197,18 +197,18 @@ static comparison compare_runs(const json_t *stored, const json_t *measured)
 
 static base_status store(const char *path, json_t *runs, base_error *err)
 {
-    report_output out;
-    base_status status = report_output_begin(path, false, &out, err);
+    base_output out;
+    base_status status = base_output_begin(path, false, &out, err);
     if (status != BASE_OK)
         return status;
     json_t *baseline = json_pack("{s:s, s:s, s:O}", "schema", "lanetrace-baseline-1", "suite", suite_name, "runs", runs);
     status = report_json_write(baseline, out.stream, err);
     json_decref(baseline);
     if (status != BASE_OK) {
-        report_output_abort(&out);
+        base_output_abort(&out);
         return status;
     }
-    return report_output_commit(&out, err);
+    return base_output_commit(&out, err);
 }
 
 /* Read a baseline; *runs is a new reference. */

@@ -7,13 +7,15 @@
 
 #include "kernels/kernel.h"
 #include "scene/scene.h"
+#include "sim/bounds.h"
+#include "sim/core.h"
 #include "sim/issue.h"
 #include "sim/machine.h"
 
 /* How much of the machine is modelled; each a stated simplification of the next (docs/machine-model.md). */
-typedef enum run_model { RUN_NATIVE, RUN_COUNT, RUN_ISSUE, RUN_MODELS } run_model;
+typedef enum run_model { RUN_NATIVE, RUN_COUNT, RUN_ISSUE, RUN_CORE, RUN_MODELS } run_model;
 
-/** "native", "count", "issue". */
+/** "native", "count", "issue", "core". */
 extern const char *const run_model_names[RUN_MODELS];
 
 /** The model of that name. Errors: BASE_ERR_USAGE, with the names there are. */
@@ -28,22 +30,28 @@ typedef struct run_options {
     unsigned jobs;
     bool keep_tile_counts; /* fill tile_counts of the result */
     bool progress;         /* a bar on stderr */
+    const char *trace;     /* file to record the events to, or NULL */
 } run_options;
 
-/* Everything that a run has found. Owns all but the scene and the machine. */
+/* Everything that a run has found, or a replay of its trace. Owns all but the scene and the machine. */
 typedef struct run_result {
     run_options options;
-    const scene *scene;
-    const sim_machine *machine;
+    const char *scene_name;
+    size_t triangle_count;
+    const struct json_t *traced; /* of a replay: what the trace says was run; belongs to the caller. NULL: a run */
+    const scene *scene;          /* this and the next three: of a run only */
     const scene_camera *camera;
     bvh *tree;
     kernel_job *job; /* with the frame: nearest hits by pixel */
+    const sim_machine *machine;
     kernel_counts counts;
-    uint64_t ops[LRB_OP_COUNT]; /* RUN_COUNT and RUN_ISSUE */
+    uint64_t ops[LRB_OP_COUNT]; /* all models but RUN_NATIVE */
     uint64_t memory_operands, idle_lanes;
     sim_issue_stats issue; /* RUN_ISSUE */
-    uint64_t cycles;       /* RUN_COUNT and RUN_ISSUE */
-    double *region_cycles; /* RUN_COUNT, RUN_ISSUE: by tile, SIM_MAX_REGIONS + 1 each: blocks, then the whole tile */
+    sim_core_stats core;   /* RUN_CORE: summed over the simulated cores */
+    sim_chains chains;     /* RUN_CORE: of the tiles */
+    uint64_t cycles;       /* all models but RUN_NATIVE; RUN_CORE: of the slowest core */
+    double *region_cycles; /* all models but RUN_NATIVE: by tile, SIM_MAX_REGIONS + 1 each: blocks, then the whole tile */
     kernel_counts *tile_counts; /* by tile, or NULL */
     double build_seconds, kernel_seconds;
 } run_result;
@@ -54,14 +62,17 @@ typedef struct run_result {
  * @param s, machine  owned by the caller; must outlive the result
  * @param out         destroy with run_result_destroy, also after a failure
  *
- * Errors: those of bvh_build, kernel_job_create, scene_find_camera; BASE_ERR_NOMEM.
+ * Errors: those of bvh_build, kernel_job_create, scene_find_camera and of the trace's writer; BASE_ERR_NOMEM.
  */
 base_status run_kernel(const scene *s, const sim_machine *machine, const run_options *options, run_result *out, base_error *err);
+
+/** What follows from the sums over the tiles: cycles from `ops` (RUN_COUNT), or all of them from `issue` (RUN_ISSUE). */
+void run_finish_cycles(run_result *result);
 
 /** Free what a result owns. */
 void run_result_destroy(run_result *result);
 
-/** Simulated cycles of image pixel (x, y): its share of its block's and its tile's. RUN_COUNT and RUN_ISSUE. */
+/** Simulated cycles of image pixel (x, y): its share of its block's and its tile's. All models but RUN_NATIVE. */
 double run_pixel_cycles(const run_result *result, unsigned x, unsigned y);
 
 /** A counter's value for pixel (x, y): its tile's, divided by the pixels of the tile. Needs keep_tile_counts. */

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "cli/identity.h"
 #include "cli/version.h"
 
 /* Decimals that reals keep in JSON. */
@@ -18,54 +19,6 @@ static json_t *hash_json(uint64_t hash)
 }
 
 static json_t *integer(uint64_t value) { return json_integer((json_int_t)value); }
-
-static json_t *params_json(const kernel_params *params)
-{
-    size_t count;
-    const kernel_param_info *table = kernel_param_list(&count);
-    json_t *object = json_object();
-    for (size_t i = 0; i < count; i++)
-        json_object_set_new(object, table[i].name, integer(*(const unsigned *)((const char *)params + table[i].offset)));
-    return object;
-}
-
-static json_t *scene_json(const run_result *r)
-{
-    const bvh *tree = r->tree;
-    json_t *accel = json_object(), *object = json_object();
-    json_object_set_new(accel, "kind", json_string("bvh"));
-    json_object_set_new(accel, "nodes", integer(tree->inner_count + tree->leaf_count));
-    json_object_set_new(accel, "leaves", integer(tree->leaf_count));
-    json_object_set_new(accel, "depth", integer(tree->depth));
-    json_object_set_new(accel, "triangles", integer(tree->record_count));
-    json_object_set_new(accel, "degenerate", integer(tree->degenerate_count));
-    json_object_set_new(accel, "triangles_per_leaf",
-                        report_json_real((double)tree->record_count / (double)(tree->leaf_count ? tree->leaf_count : 1), RATIO_DECIMALS));
-    json_object_set_new(accel, "sah_cost", report_json_real(tree->sah_cost, RATIO_DECIMALS));
-    json_object_set_new(object, "name", json_string(r->scene->name));
-    json_object_set_new(object, "triangles", integer(r->scene->triangle_count));
-    json_object_set_new(object, "hash", hash_json(r->scene->hash));
-    json_object_set_new(object, "camera", json_string(r->camera->name));
-    json_object_set_new(object, "accel", accel);
-    return object;
-}
-
-static json_t *counts_json(const run_result *r)
-{
-    static const char units_prefix[] = "units_";
-    json_t *object = json_object(), *units = json_object();
-    for (int i = 0; i < KERNEL_COUNTER_COUNT; i++) {
-        const char *name = kernel_counter_table[i].name;
-        if (!(r->options.kernel->counters >> i & 1))
-            continue;
-        if (strncmp(name, units_prefix, strlen(units_prefix)) == 0)
-            json_object_set_new(units, name + strlen(units_prefix), integer(r->counts.n[i]));
-        else
-            json_object_set_new(object, name, integer(r->counts.n[i]));
-    }
-    json_object_set_new(object, "units", units);
-    return object;
-}
 
 static json_t *ops_json(const run_result *r)
 {
@@ -89,19 +42,24 @@ static json_t *ops_json(const run_result *r)
 
 static json_t *phases_json(const run_result *r)
 {
+    const uint64_t *phase = r->options.model == RUN_CORE ? r->core.phase : r->issue.phase;
     json_t *object = json_object();
     for (int i = 0; i < KERNEL_PHASE_COUNT; i++)
-        json_object_set_new(object, kernel_phase_names[i], integer(r->issue.phase[i]));
+        json_object_set_new(object, kernel_phase_names[i], integer(phase[i]));
     return object;
 }
 
-/* Cycles waited for results of one class, however they were to be read. */
-static uint64_t operand_wait(const sim_issue_stats *s, int class_id)
+/* Where the cycles of the run went. */
+static sim_cycles cycles_of(const run_result *r)
 {
-    uint64_t sum = 0;
-    for (int kind = 0; kind < SIM_CONSUMERS; kind++)
-        sum += s->operand[class_id][kind];
-    return sum;
+    const sim_issue_stats *s = &r->issue;
+    if (r->options.model == RUN_CORE)
+        return r->core.core;
+    sim_cycles cycles = {.issued_one = s->issued_one, .issued_pair = s->issued_pair, .gap = s->gap, .store_forward = s->store_forward,
+                         .blocked = s->blocked};
+    memcpy(cycles.operand, s->operand, sizeof cycles.operand);
+    memcpy(cycles.busy, s->busy, sizeof cycles.busy);
+    return cycles;
 }
 
 static void set_if_any(json_t *object, const char *prefix, const char *name, uint64_t value)
@@ -112,20 +70,52 @@ static void set_if_any(json_t *object, const char *prefix, const char *name, uin
         json_object_set_new(object, key, integer(value));
 }
 
-static json_t *stalls_json(const run_result *r)
+/* Cycles waited for results of one class, however they were to be read. */
+static uint64_t operand_wait(const sim_cycles *s, int class_id)
 {
-    const sim_issue_stats *s = &r->issue;
+    uint64_t sum = 0;
+    for (int kind = 0; kind < SIM_CONSUMERS; kind++)
+        sum += s->operand[class_id][kind];
+    return sum;
+}
+
+static json_t *stalls_json(const sim_cycles *s)
+{
     json_t *object = json_object();
     json_object_set_new(object, "issued_one", integer(s->issued_one));
     json_object_set_new(object, "issued_pair", integer(s->issued_pair));
     for (int k = 0; k < LRB_CLASS_COUNT; k++)
         set_if_any(object, "operand_", lrb_cost_classes[k].name, operand_wait(s, k));
+    set_if_any(object, "", "l2", s->l2);
+    set_if_any(object, "", "memory", s->memory);
     set_if_any(object, "", "store_forward", s->store_forward);
     for (int k = 0; k < LRB_CLASS_COUNT; k++)
         set_if_any(object, "busy_", lrb_cost_classes[k].name, s->busy[k]);
     set_if_any(object, "", "blocked", s->blocked);
+    set_if_any(object, "", "delay", s->delay);
+    set_if_any(object, "", "mispredict", s->mispredict);
+    set_if_any(object, "", "btb_miss", s->btb_miss);
+    set_if_any(object, "", "misses_under_way", s->misses);
+    set_if_any(object, "", "prefetches_under_way", s->prefetches);
     set_if_any(object, "", "gap", s->gap);
+    set_if_any(object, "", "other_thread", s->other_thread);
+    set_if_any(object, "", "no_work", s->no_work);
     return object;
+}
+
+/* Cycles that rest on each basis, by the field that made the core wait; the latency of a level of memory has one field. */
+static void add_plain_bases(const sim_cycles *s, const sim_machine_value *v, uint64_t cycles[SIM_BASIS_COUNT])
+{
+    cycles[v[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)].basis] += s->store_forward;
+    cycles[v[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)].basis] += s->blocked;
+    cycles[v[sim_class_field(LRB_CLASS_delay, SIM_KEY_throughput)].basis] += s->delay;
+    cycles[v[SIM_FIELD_machine_issue_gap].basis] += s->gap;
+    cycles[v[SIM_FIELD_l2_latency].basis] += s->l2;
+    cycles[v[SIM_FIELD_memory_latency].basis] += s->memory;
+    cycles[v[SIM_FIELD_branch_mispredict_penalty].basis] += s->mispredict;
+    cycles[v[SIM_FIELD_branch_btb_miss_penalty].basis] += s->btb_miss;
+    cycles[v[SIM_FIELD_memory_demand_misses_per_thread].basis] += s->misses;
+    cycles[v[SIM_FIELD_memory_prefetches_per_core].basis] += s->prefetches;
 }
 
 void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
@@ -136,38 +126,117 @@ void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
         [SIM_CONSUMER_BRANCH] = SIM_KEY_latency_to_branch,
         [SIM_CONSUMER_ADDRESS] = SIM_KEY_latency_to_address,
     };
-    const sim_issue_stats *s = &r->issue;
+    const sim_cycles s = cycles_of(r);
+    const uint64_t *issued = r->options.model == RUN_CORE ? r->core.issued_by_class : r->issue.issued_by_class;
     const sim_machine_value *v = r->machine->values;
-    uint64_t cycles[SIM_BASIS_COUNT] = {0};
+    uint64_t cycles[SIM_BASIS_COUNT] = {0}, sum = 0;
     for (int i = 0; i < LRB_CLASS_COUNT; i++) {
         lrb_cost_class k = (lrb_cost_class)i;
-        cycles[v[sim_class_field(k, SIM_KEY_throughput)].basis] += s->issued_by_class[k] + s->busy[k];
+        cycles[v[sim_class_field(k, SIM_KEY_throughput)].basis] += issued[k] + s.busy[k];
         for (int kind = 0; kind < SIM_CONSUMERS; kind++) {
             size_t field = sim_class_field(k, latency_key[kind]);
-            cycles[v[v[field].given ? field : sim_class_field(k, SIM_KEY_latency)].basis] += s->operand[k][kind];
+            cycles[v[v[field].given ? field : sim_class_field(k, SIM_KEY_latency)].basis] += s.operand[k][kind];
         }
     }
-    cycles[v[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)].basis] += s->store_forward;
-    cycles[v[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)].basis] += s->blocked;
-    cycles[v[SIM_FIELD_machine_issue_gap].basis] += s->gap;
+    add_plain_bases(&s, v, cycles);
     for (int i = 0; i < SIM_BASIS_COUNT; i++)
-        share[i] = s->cycles ? (double)cycles[i] / (double)s->cycles : 0;
+        sum += cycles[i];
+    for (int i = 0; i < SIM_BASIS_COUNT; i++)
+        share[i] = sum ? (double)cycles[i] / (double)sum : 0;
 }
+
+static json_t *basis_json(const run_result *r)
+{
+    double share[SIM_BASIS_COUNT];
+    json_t *basis = json_object();
+    stats_basis_shares(r, share);
+    for (int i = 0; i < SIM_BASIS_COUNT; i++)
+        json_object_set_new(basis, sim_basis_name((sim_basis)i), report_json_real(share[i], RATIO_DECIMALS));
+    return basis;
+}
+
+/* Core cycles that began with an op of each mnemonic, or in which it was waited for. */
+static json_t *op_cycles_json(const run_result *r)
+{
+    json_t *object = json_object();
+    for (int i = 0; i < LRB_OP_COUNT; i++) {
+        const char *mnemonic = lrb_op_table[i].mnemonic;
+        json_int_t before = json_integer_value(json_object_get(object, mnemonic)); /* two rows may share a mnemonic */
+        if (r->core.op_cycles[i])
+            json_object_set_new(object, mnemonic, json_integer(before + (json_int_t)r->core.op_cycles[i]));
+    }
+    return object;
+}
+
+static json_t *lanes_json(const run_result *r)
+{
+    json_t *object = json_object();
+    for (int i = 0; i < KERNEL_PHASE_COUNT; i++) {
+        uint64_t ops = r->core.phase_vector_ops[i];
+        if (ops)
+            json_object_set_new(object, kernel_phase_names[i],
+                                report_json_real(1 - (double)r->core.phase_idle_lanes[i] / (16.0 * (double)ops), RATIO_DECIMALS));
+    }
+    return object;
+}
+
+static json_t *memory_json(const run_result *r)
+{
+    const sim_hierarchy_counts *m = &r->core.memory;
+    json_t *object = json_object();
+    json_object_set_new(object, "l1_accesses", integer(m->l1_accesses));
+    json_object_set_new(object, "l1_waits", integer(m->l1_waits));
+    json_object_set_new(object, "l1_misses", integer(m->l1_misses));
+    json_object_set_new(object, "l2_accesses", integer(m->l2_accesses));
+    json_object_set_new(object, "l2_misses", integer(m->l2_misses));
+    json_object_set_new(object, "prefetches", integer(m->prefetches));
+    json_object_set_new(object, "dropped_prefetches", integer(m->dropped_prefetches));
+    json_object_set_new(object, "memory_lines", integer(m->memory_lines));
+    json_object_set_new(object, "bank_conflicts", integer(r->core.bank_conflicts));
+    return object;
+}
+
+static json_t *branches_json(const run_result *r)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "total", integer(r->core.branches));
+    json_object_set_new(object, "mispredicted", integer(r->core.mispredicted));
+    json_object_set_new(object, "btb_misses", integer(r->core.btb_misses));
+    return object;
+}
+
+/* Lower bounds of the cycles. */
+static json_t *bounds_json(const run_result *r)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "dependence", integer(sim_bound_dependence(r->machine, &r->chains)));
+    json_object_set_new(object, "ports", integer(sim_bound_ports(r->machine, r->ops)));
+    json_object_set_new(object, "memory", integer(sim_bound_memory(r->machine, &r->core.memory)));
+    return object;
+}
+
+static bool has_stalls(const run_result *r) { return r->options.model == RUN_ISSUE || r->options.model == RUN_CORE; }
 
 static json_t *cycles_json(const run_result *r)
 {
     json_t *object = json_object();
     json_object_set_new(object, "total", integer(r->cycles));
     json_object_set_new(object, "per_ray", report_json_real((double)r->cycles / (double)r->counts.n[KERNEL_rays], RATIO_DECIMALS));
-    if (r->options.model == RUN_ISSUE) {
-        double share[SIM_BASIS_COUNT];
-        json_t *basis = json_object();
-        stats_basis_shares(r, share);
-        for (int i = 0; i < SIM_BASIS_COUNT; i++)
-            json_object_set_new(basis, sim_basis_name((sim_basis)i), report_json_real(share[i], RATIO_DECIMALS));
+    if (has_stalls(r)) {
+        const sim_cycles cycles = cycles_of(r);
         json_object_set_new(object, "by_phase", phases_json(r));
-        json_object_set_new(object, "by_stall", stalls_json(r));
-        json_object_set_new(object, "by_basis", basis);
+        json_object_set_new(object, "by_stall", stalls_json(&cycles));
+        json_object_set_new(object, "by_basis", basis_json(r));
+    }
+    if (r->options.model == RUN_CORE) {
+        json_object_set_new(object, "cores", integer(r->machine->cores));
+        json_object_set_new(object, "threads", integer(r->machine->threads));
+        json_object_set_new(object, "threads_by_stall", stalls_json(&r->core.threads));
+        json_object_set_new(object, "bounds", bounds_json(r));
+        json_object_set_new(object, "by_op", op_cycles_json(r));
+        json_object_set_new(object, "lane_utilisation", lanes_json(r));
+        json_object_set_new(object, "memory", memory_json(r));
+        json_object_set_new(object, "branches", branches_json(r));
     }
     return object;
 }
@@ -194,9 +263,10 @@ json_t *stats_json(const run_result *r, double load_seconds, int with_host)
 {
     json_t *stats = json_object();
     bool accounted = r->options.model != RUN_NATIVE;
+    json_t *run = r->traced ? json_deep_copy(r->traced) : identity_json(r);
     json_object_set_new(stats, "schema", json_string("lanetrace-stats-1"));
-    json_object_set_new(stats, "kernel", json_string(r->options.kernel->name));
-    json_object_set_new(stats, "params", params_json(&r->options.params));
+    json_object_set(stats, "kernel", json_object_get(run, "kernel"));
+    json_object_set(stats, "params", json_object_get(run, "params"));
     json_object_set_new(stats, "model", json_string(run_model_names[r->options.model]));
     if (accounted) {
         json_t *machine = json_object();
@@ -204,12 +274,10 @@ json_t *stats_json(const run_result *r, double load_seconds, int with_host)
         json_object_set_new(machine, "hash", hash_json(sim_machine_hash(r->machine)));
         json_object_set_new(stats, "machine", machine);
     }
-    json_object_set_new(stats, "scene", scene_json(r));
-    json_t *image = json_object();
-    json_object_set_new(image, "width", integer(r->options.width));
-    json_object_set_new(image, "height", integer(r->options.height));
-    json_object_set_new(stats, "image", image);
-    json_object_set_new(stats, "counts", counts_json(r));
+    json_object_set(stats, "scene", json_object_get(run, "scene"));
+    json_object_set(stats, "image", json_object_get(run, "image"));
+    json_object_set_new(stats, "counts", identity_counts_json(r));
+    json_decref(run);
     if (accounted) {
         json_object_set_new(stats, "ops", ops_json(r));
         json_object_set_new(stats, "cycles", cycles_json(r));
@@ -269,7 +337,7 @@ static void add_notes(report_table *t, const run_result *r, double load_seconds)
         snprintf(text, sizeof text, "Lane utilisation of vector ops: %.1f %%.", 100 * run_totals(r).lane_utilisation);
         report_table_add_note(t, text);
     }
-    if (r->options.model == RUN_ISSUE) {
+    if (has_stalls(r)) {
         double share[SIM_BASIS_COUNT];
         size_t length = (size_t)snprintf(text, sizeof text, "Cycles by the basis of the machine's numbers:");
         stats_basis_shares(r, share);
@@ -287,8 +355,8 @@ report_table *stats_table(const run_result *r, double load_seconds)
 {
     bool accounted = r->options.model != RUN_NATIVE;
     char title[384];
-    snprintf(title, sizeof title, "%s on %s (%zu triangles), %ux%u, model %s%s%s", r->options.kernel->name, r->scene->name,
-             r->scene->triangle_count, r->options.width, r->options.height, run_model_names[r->options.model],
+    snprintf(title, sizeof title, "%s on %s (%zu triangles), %ux%u, model %s%s%s", r->options.kernel->name, r->scene_name,
+             r->triangle_count, r->options.width, r->options.height, run_model_names[r->options.model],
              accounted ? ", machine " : "", accounted ? r->machine->name : "");
     report_table *t = report_table_create(title);
     report_table_add_column(t, &(report_column){.name = "statistic"});
@@ -300,9 +368,16 @@ report_table *stats_table(const run_result *r, double load_seconds)
         report_table_begin_group(t, "simulated cycles");
         add_row(t, r, "total", r->cycles);
     }
-    if (r->options.model == RUN_ISSUE) {
+    if (has_stalls(r)) {
+        const sim_cycles cycles = cycles_of(r);
         add_object(t, r, "cycles by phase", phases_json(r));
-        add_object(t, r, "cycles by stall", stalls_json(r));
+        add_object(t, r, "cycles by stall", stalls_json(&cycles));
+    }
+    if (r->options.model == RUN_CORE) {
+        add_object(t, r, "cycles of the threads by stall", stalls_json(&r->core.threads));
+        add_object(t, r, "lower bounds of the cycles", bounds_json(r));
+        add_object(t, r, "memory", memory_json(r));
+        add_object(t, r, "branches", branches_json(r));
     }
     add_notes(t, r, load_seconds);
     return t;

@@ -37,6 +37,7 @@ void lrb_ctx_destroy(lrb_ctx **c)
 
 void lrb_ctx_begin(lrb_ctx *c)
 {
+    c->control = (lrb_control){0};
     c->next_event = LRB_FAR;
     c->free_event = c->events;
 }

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "lrbni/base/status.h"
+#include "lrbni/control.h"
 #include "lrbni/event.h"
 #include "lrbni/memory.h"
 #include "lrbni/op_table.h"
@@ -18,6 +19,8 @@
 #define LRB_BATCH 1024u /* events handed to the sink at a time */
 
 typedef struct lrb_ctx {
+    lrb_control control; /* what float ops look at in kernels that define LRB_CONTROL (lrbni/ops/rounding.h) */
+
     /* LRB_COUNT */
     uint64_t ops[LRB_OP_COUNT];
     uint64_t memory_operands; /* ops whose last source was in memory; loads and stores apart */
@@ -47,7 +50,7 @@ base_status lrb_ctx_create(lrb_event_sink *sink, void *user, lrb_ctx **out, base
 /** Free a context; sets the pointer to NULL. NULL contents are fine. */
 void lrb_ctx_destroy(lrb_ctx **c);
 
-/** Begin a tile: event ids start again. */
+/** Begin a tile: event ids start again, and float ops are in their default state. */
 void lrb_ctx_begin(lrb_ctx *c);
 
 /** End a tile: hand the events that are still here to the sink. */

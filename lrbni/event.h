@@ -18,14 +18,18 @@
 #define LRB_FORM_REGISTER 0x0000u
 #define LRB_FORM_SWIZZLE 0x1000u /* a register, its lanes swizzled within groups of four */
 #define LRB_FORM_MEMORY 0x2000u  /* memory: source 1 is the address register */
-/* Vector loads and S3 in memory: how many bytes are read, whatever the mask; none of these: the words of the mask. */
+/* Loads, stores and S3 in memory: how many bytes are touched, whatever the mask. None of these: the words of the mask of a vector
+ * access, one 32-bit word of a scalar one. A store of bytes or halves counts whole words, and one of that form under a mask
+ * counts all its bytes. Streams and gathers touch some words of the line of their address and count as all 16; an expand or compress,
+ * which no chip has, counts as the line it begins in. */
 #define LRB_FORM_BYTES 0xd000u
-#define LRB_FORM_4_BYTES 0x4000u  /* {1to16} of 32-bit elements */
-#define LRB_FORM_8_BYTES 0x5000u  /* {1to8} */
+#define LRB_FORM_4_BYTES 0x4000u  /* {1to16} of 32-bit elements, or fewer bytes; a store of one element */
+#define LRB_FORM_8_BYTES 0x5000u  /* {1to8}; 64 bits of a general register */
 #define LRB_FORM_16_BYTES 0xc000u /* {4to16}; 16 elements of 8 bits */
 #define LRB_FORM_32_BYTES 0xd000u /* {4to8}; 16 elements of 16 bits */
+#define LRB_FORM_LINE 0x8000u     /* the line of 64 bytes that the address lies in */
 
-/** Bytes that a vector access of that form touches, from its address on; 0: the 32-bit words of its mask. */
+/** Bytes that an access of that form touches, from its address on, or of its line if 64; 0: see above. */
 static inline uint32_t lrb_form_bytes(unsigned form)
 {
     switch (form & LRB_FORM_BYTES) {
@@ -37,9 +41,21 @@ static inline uint32_t lrb_form_bytes(unsigned form)
         return 16;
     case LRB_FORM_32_BYTES:
         return 32;
+    case LRB_FORM_LINE:
+        return 64;
     default:
         return 0;
     }
+}
+
+/** The form of a vector access to so many bytes, a power of two; 64: that of the words of its mask. */
+static inline unsigned lrb_form_of_bytes(uint32_t bytes)
+{
+    return bytes == 64 ? 0
+           : bytes == 32 ? LRB_FORM_32_BYTES
+           : bytes == 16 ? LRB_FORM_16_BYTES
+           : bytes == 8 ? LRB_FORM_8_BYTES
+                        : LRB_FORM_4_BYTES;
 }
 
 typedef struct lrb_event {

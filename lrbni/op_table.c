@@ -23,7 +23,7 @@ const char *const lrb_mask_names[LRB_MASK_COUNT] = {
     [LRB_MASK_NONE] = "", [LRB_MASK_MERGE] = "merge", [LRB_MASK_ZERO] = "zero", [LRB_MASK_SELECT] = "select"};
 
 const char *const lrb_round_names[LRB_ROUND_COUNT] = {
-    [LRB_ROUND_EXACT] = "exact", [LRB_ROUND_RNE] = "nearest", [LRB_ROUND_ASSUMED] = "assumed"};
+    [LRB_ROUND_EXACT] = "exact", [LRB_ROUND_RNE] = "nearest", [LRB_ROUND_MODE] = "mode", [LRB_ROUND_ASSUMED] = "assumed"};
 
 lrb_op_kind lrb_op_kind_of(lrb_op_id id)
 {
@@ -56,6 +56,35 @@ lrb_op_kind lrb_op_kind_of(lrb_op_id id)
 lrb_access lrb_op_access_of(lrb_op_id id)
 {
     return lrb_shape_table[lrb_op_table[id].shape].access;
+}
+
+lrb_hint lrb_op_hint_of(lrb_op_id id)
+{
+    switch ((int)id) {
+    case LRB_OP_prefetch1:
+    case LRB_OP_prefetch1_ex:
+    case LRB_OP_prefetch1_nt:
+    case LRB_OP_prefetch1_ex_nt:
+    case LRB_OP_prefetch1_miss:
+    case LRB_OP_gatherpfd:
+    case LRB_OP_scatterpfd:
+        return LRB_HINT_PREFETCH1;
+    case LRB_OP_prefetch2:
+    case LRB_OP_prefetch2_ex:
+    case LRB_OP_prefetch2_nt:
+    case LRB_OP_prefetch2_ex_nt:
+    case LRB_OP_gatherpf2d:
+    case LRB_OP_scatterpf2d:
+        return LRB_HINT_PREFETCH2;
+    case LRB_OP_evict1:
+        return LRB_HINT_EVICT1;
+    case LRB_OP_evict2:
+        return LRB_HINT_EVICT2;
+    case LRB_OP_delay:
+        return LRB_HINT_DELAY;
+    default:
+        return LRB_HINT_NONE;
+    }
 }
 
 int lrb_op_is_memory(lrb_op_id id)

@@ -20,7 +20,7 @@ typedef enum lrb_shape {
 } lrb_shape;
 
 typedef enum lrb_mask_rule { LRB_MASK_NONE, LRB_MASK_MERGE, LRB_MASK_ZERO, LRB_MASK_SELECT, LRB_MASK_COUNT } lrb_mask_rule;
-typedef enum lrb_round_rule { LRB_ROUND_EXACT, LRB_ROUND_RNE, LRB_ROUND_ASSUMED, LRB_ROUND_COUNT } lrb_round_rule;
+typedef enum lrb_round_rule { LRB_ROUND_EXACT, LRB_ROUND_RNE, LRB_ROUND_MODE, LRB_ROUND_ASSUMED, LRB_ROUND_COUNT } lrb_round_rule;
 
 /* Which chips have an op: the original Larrabee, Knights Corner, both, or only the published intrinsics. */
 typedef enum lrb_chips { LRB_CHIPS_NONE, LRB_CHIPS_L, LRB_CHIPS_K, LRB_CHIPS_LK, LRB_CHIPS_LIB, LRB_CHIPS_COUNT } lrb_chips;
@@ -32,6 +32,16 @@ typedef enum lrb_access {
     LRB_ACCESS_STORE,
     LRB_ACCESS_HINT /* nothing but a word to the caches: prefetch or evict, by the op */
 } lrb_access;
+
+/* What a hint asks of the core; of gathers and scatters to come the ones that only announce them ask nothing. */
+typedef enum lrb_hint {
+    LRB_HINT_NONE,
+    LRB_HINT_PREFETCH1, /* a line to the first level, ... */
+    LRB_HINT_PREFETCH2, /* ... or to the second */
+    LRB_HINT_EVICT1,
+    LRB_HINT_EVICT2,
+    LRB_HINT_DELAY
+} lrb_hint;
 
 /* What a shape says of its ops (lrbni/shapes.def). */
 typedef struct lrb_shape_info {
@@ -62,7 +72,7 @@ extern const lrb_shape_info lrb_shape_table[LRB_SHAPE_COUNT];
 /** "L", "K", "L K", "library", "". */
 extern const char *const lrb_chips_names[LRB_CHIPS_COUNT];
 
-/** "merge", "zero", "select", ""; "exact", "nearest", "assumed". */
+/** "merge", "zero", "select", ""; "exact", "nearest", "mode", "assumed". */
 extern const char *const lrb_mask_names[LRB_MASK_COUNT];
 extern const char *const lrb_round_names[LRB_ROUND_COUNT];
 
@@ -74,6 +84,9 @@ lrb_op_kind lrb_op_kind_of(lrb_op_id id);
 
 /** What an op of this id does to memory whatever its form (an S3 memory operand is told by the event). */
 lrb_access lrb_op_access_of(lrb_op_id id);
+
+/** What an op of this id asks of the core beyond its pipes. */
+lrb_hint lrb_op_hint_of(lrb_op_id id);
 
 /** Whether an op of this id always reads or writes memory. */
 int lrb_op_is_memory(lrb_op_id id);

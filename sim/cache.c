@@ -1,15 +1,8 @@
 #include "sim/cache.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #define NO_LINE UINT64_MAX
-
-struct sim_cache {
-    unsigned ways, line_bits;
-    uint64_t sets; /* a power of two */
-    uint64_t *lines; /* sets x ways, in each set the most recently used first; NO_LINE: a free place */
-};
 
 base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_bytes, sim_cache **out, base_error *err)
 {
@@ -20,7 +13,9 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
     sim_cache *cache = calloc(1, sizeof *cache);
     if (cache)
         cache->lines = malloc(places * sizeof *cache->lines);
-    if (!cache || !cache->lines) {
+    if (cache)
+        cache->used = calloc(places, sizeof *cache->used);
+    if (!cache || !cache->lines || !cache->used) {
         sim_cache_destroy(&cache);
         return base_fail(err, BASE_ERR_NOMEM, "cache", "out of memory");
     }
@@ -35,47 +30,30 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
 
 void sim_cache_destroy(sim_cache **cache)
 {
-    if (*cache)
+    if (*cache) {
         free((*cache)->lines);
+        free((*cache)->used);
+    }
     free(*cache);
     *cache = NULL;
 }
 
-uint64_t sim_cache_line(const sim_cache *cache, uint64_t address)
+/* A free place, or else the one that was not used for longest. */
+void sim_cache_fill(sim_cache *cache, uint64_t line)
 {
-    return address >> cache->line_bits;
-}
-
-static uint64_t *set_of(const sim_cache *cache, uint64_t line)
-{
-    return cache->lines + (line & (cache->sets - 1)) * cache->ways;
-}
-
-/* The place of a line in its set; `ways` if it is not there. */
-static unsigned place_of(const sim_cache *cache, const uint64_t *set, uint64_t line)
-{
-    unsigned place = 0;
-    while (place < cache->ways && set[place] != line)
-        place++;
-    return place;
-}
-
-bool sim_cache_touch(sim_cache *cache, uint64_t line)
-{
-    uint64_t *set = set_of(cache, line);
-    unsigned place = place_of(cache, set, line);
-    bool hit = place < cache->ways;
-    memmove(set + 1, set, (hit ? place : cache->ways - 1) * sizeof *set); /* of a miss the last one goes */
-    set[0] = line;
-    return hit;
+    const uint64_t first = (line & (cache->sets - 1)) * cache->ways;
+    uint64_t oldest = first;
+    for (uint64_t place = first; place < first + cache->ways; place++)
+        oldest = cache->used[place] < cache->used[oldest] ? place : oldest;
+    cache->lines[oldest] = line;
+    cache->used[oldest] = ++cache->uses;
 }
 
 void sim_cache_evict(sim_cache *cache, uint64_t line)
 {
-    uint64_t *set = set_of(cache, line);
-    unsigned place = place_of(cache, set, line);
-    if (place == cache->ways)
+    const uint64_t place = sim_cache_place(cache, line);
+    if (place == UINT64_MAX)
         return;
-    memmove(set + place, set + place + 1, (cache->ways - 1 - place) * sizeof *set);
-    set[cache->ways - 1] = NO_LINE;
+    cache->lines[place] = NO_LINE;
+    cache->used[place] = 0;
 }

@@ -14,7 +14,14 @@
 extern "C" {
 #endif
 
-typedef struct sim_cache sim_cache;
+/* Opaque but to the inline functions below. */
+typedef struct sim_cache {
+    unsigned ways, line_bits;
+    uint64_t sets;  /* a power of two */
+    uint64_t *lines; /* sets x ways; UINT64_MAX: a free place */
+    uint64_t *used;  /* by place: when it was used last; free places, never: 0 */
+    uint64_t uses;
+} sim_cache;
 
 /** Whether so many bytes are a power-of-two number of sets of `ways` lines of line_bytes; entries of a table: lines of 1. */
 static inline bool sim_cache_fits(unsigned size_bytes, unsigned ways, unsigned line_bytes)
@@ -36,7 +43,24 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
 void sim_cache_destroy(sim_cache **cache);
 
 /** Number of the line that holds an address. */
-uint64_t sim_cache_line(const sim_cache *cache, uint64_t address);
+static inline uint64_t sim_cache_line(const sim_cache *cache, uint64_t address) { return address >> cache->line_bits; }
+
+/** The place of a line in the cache; UINT64_MAX if it is not there. All places of its set are looked at, so that a host need not
+ * foresee which one it is. */
+static inline uint64_t sim_cache_place(const sim_cache *cache, uint64_t line)
+{
+    const uint64_t first = (line & (cache->sets - 1)) * cache->ways;
+    uint64_t place = UINT64_MAX;
+    for (unsigned i = 0; i < cache->ways; i++)
+        place = cache->lines[first + i] == line ? first + i : place;
+    return place;
+}
+
+/** Whether a line is there; changes nothing. */
+static inline bool sim_cache_holds(const sim_cache *cache, uint64_t line) { return sim_cache_place(cache, line) != UINT64_MAX; }
+
+/** What sim_cache_touch does with a line that is not there. */
+void sim_cache_fill(sim_cache *cache, uint64_t line);
 
 /**
  * Read or write a line: it is there afterwards, as the most recently used one of its set.
@@ -44,7 +68,15 @@ uint64_t sim_cache_line(const sim_cache *cache, uint64_t address);
  * @param line  below UINT64_MAX
  * @return      whether it was there before
  */
-bool sim_cache_touch(sim_cache *cache, uint64_t line);
+static inline bool sim_cache_touch(sim_cache *cache, uint64_t line)
+{
+    const uint64_t place = sim_cache_place(cache, line);
+    if (place != UINT64_MAX)
+        cache->used[place] = ++cache->uses;
+    else
+        sim_cache_fill(cache, line);
+    return place != UINT64_MAX;
+}
 
 /** Drop a line if it is there (clevict). */
 void sim_cache_evict(sim_cache *cache, uint64_t line);

@@ -24,13 +24,9 @@
 #include "lrbni/base/status.h"
 #include "lrbni/event.h"
 #include "lrbni/op_table.h"
+#include "sim/cycles.h"
 #include "sim/machine.h"
-
-/* How a consumer reads an operand: which of the producer's latencies applies. */
-typedef enum sim_consumer { SIM_CONSUMER_PLAIN, SIM_CONSUMER_SHUFFLE, SIM_CONSUMER_BRANCH, SIM_CONSUMER_ADDRESS, SIM_CONSUMERS } sim_consumer;
-
-#define SIM_MAX_PHASES 16
-#define SIM_MAX_REGIONS 16 /* of a tile */
+#include "sim/observer.h"
 
 /* Where the cycles went; plain sums, so that stats of tiles add up. */
 typedef struct sim_issue_stats {
@@ -67,6 +63,9 @@ void sim_issue_begin(sim_issue *s);
 
 /** Time the next events of the tile. Has the signature of lrb_event_sink; `s` is the sim_issue. Ids must be those of ops. */
 void sim_issue_events(void *s, const lrb_event *events, uint32_t count);
+
+/** Tell `observer` of all events from now on; NULL: nobody. Cycles are those of the tile, the first is 1; the thread is 0. */
+void sim_issue_observe(sim_issue *s, sim_observer *observer, void *user);
 
 /**
  * End the tile: its cycles, from the first issue to the last, are added to the stats.

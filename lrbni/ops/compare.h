@@ -2,41 +2,36 @@
 #ifndef LRBNI_OPS_COMPARE_H
 #define LRBNI_OPS_COMPARE_H
 
-#include "lrbni/ops/operand.h"
+#include "lrbni/ops/control.h"
 
-/* LRB_COMPARE(cmplt_ps, f, ps): lrb_cmplt_ps, lrb_cmplt_ps_s3, lrb_mask_cmplt_ps, lrb_mask_cmplt_ps_s3 */
-#define LRB_COMPARE(id, type, suffix)                                                                     \
-    LRB_INLINE lrb_k16 lrb_##id##_s3(lrb_ctx *c, lrb_v16##type a, lrb_s3##type b)                         \
-    {                                                                                                     \
-        lrb_k16 r = {.bits = lanes_##id(a.lanes, b.lanes)};                                               \
-        LRB_SET_FROM(r, lrb_emit(c, LRB_OP_##id, b.form, 0xffff, LRB_FROM(a), LRB_FROM(b), 0, 0, b.address)); \
-        return r;                                                                                         \
-    }                                                                                                     \
-    LRB_INLINE lrb_k16 lrb_##id(lrb_ctx *c, lrb_v16##type a, lrb_v16##type b)                             \
-    {                                                                                                     \
-        return lrb_##id##_s3(c, a, lrb_reg_##suffix(b));                                                  \
-    }                                                                                                     \
-    LRB_INLINE lrb_k16 lrb_mask_##id##_s3(lrb_ctx *c, lrb_k16 k, lrb_v16##type a, lrb_s3##type b)         \
-    {                                                                                                     \
-        lrb_k16 r = {.bits = lanes_##id(a.lanes, b.lanes) & k.bits};                                      \
-        LRB_SET_FROM(r, lrb_emit_masked(c, LRB_OP_##id, b.form, k, LRB_FROM(a), LRB_FROM(b), 0, b.address)); \
-        return r;                                                                                         \
-    }                                                                                                     \
-    LRB_INLINE lrb_k16 lrb_mask_##id(lrb_ctx *c, lrb_k16 k, lrb_v16##type a, lrb_v16##type b)             \
-    {                                                                                                     \
-        return lrb_mask_##id##_s3(c, k, a, lrb_reg_##suffix(b));                                          \
-    }
-LRB_COMPARE(cmpeq_ps, f, ps)
-LRB_COMPARE(cmplt_ps, f, ps)
-LRB_COMPARE(cmple_ps, f, ps)
-LRB_COMPARE(cmpunord_ps, f, ps)
-LRB_COMPARE(cmpneq_ps, f, ps)
-LRB_COMPARE(cmpnlt_ps, f, ps)
-LRB_COMPARE(cmpnle_ps, f, ps)
-LRB_COMPARE(cmpord_ps, f, ps)
-LRB_COMPARE(cmpeq_pi, i, pi)
-LRB_COMPARE(cmplt_pi, i, pi)
-LRB_COMPARE(cmple_pi, i, pi)
-#undef LRB_COMPARE
+/* LRB_FLOAT_COMPARE(cmplt_ps, ps) */
+#define LRB_FLOAT_COMPARE(id, suffix) \
+    LRB_MASK_RESULT(id, suffix, lanes_##id(LRB_READ(c, suffix, a.lanes), LRB_READ(c, suffix, b.lanes)))
+#define LRB_FLOAT_COMPARES(suffix)                   \
+    LRB_FLOAT_COMPARE(cmpeq_##suffix, suffix)        \
+    LRB_FLOAT_COMPARE(cmplt_##suffix, suffix)        \
+    LRB_FLOAT_COMPARE(cmple_##suffix, suffix)        \
+    LRB_FLOAT_COMPARE(cmpunord_##suffix, suffix)     \
+    LRB_FLOAT_COMPARE(cmpneq_##suffix, suffix)       \
+    LRB_FLOAT_COMPARE(cmpnlt_##suffix, suffix)       \
+    LRB_FLOAT_COMPARE(cmpnle_##suffix, suffix)       \
+    LRB_FLOAT_COMPARE(cmpord_##suffix, suffix)
+LRB_FLOAT_COMPARES(ps)
+LRB_FLOAT_COMPARES(pd)
+#undef LRB_FLOAT_COMPARE
+#undef LRB_FLOAT_COMPARES
+LRB_COMPARE(cmpeq_pi, pi)
+LRB_COMPARE(cmplt_pi, pi)
+LRB_COMPARE(cmple_pi, pi)
+LRB_COMPARE(cmpneq_pi, pi)
+LRB_COMPARE(cmpnlt_pi, pi)
+LRB_COMPARE(cmpnle_pi, pi)
+LRB_COMPARE(cmpeq_pu, pi)
+LRB_COMPARE(cmplt_pu, pi)
+LRB_COMPARE(cmple_pu, pi)
+LRB_COMPARE(cmpneq_pu, pi)
+LRB_COMPARE(cmpnlt_pu, pi)
+LRB_COMPARE(cmpnle_pu, pi)
+LRB_COMPARE(test_pi, pi)
 
 #endif

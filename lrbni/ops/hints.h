@@ -11,7 +11,14 @@
         lrb_emit(c, LRB_OP_##id, 0, 0xffff, LRB_BASE_FROM(m), LRB_INDEX_FROM(m), 0, 0, m.address);        \
     }
 LRB_CACHE_HINT(prefetch1)
+LRB_CACHE_HINT(prefetch1_ex)
+LRB_CACHE_HINT(prefetch1_nt)
+LRB_CACHE_HINT(prefetch1_ex_nt)
+LRB_CACHE_HINT(prefetch1_miss)
 LRB_CACHE_HINT(prefetch2)
+LRB_CACHE_HINT(prefetch2_ex)
+LRB_CACHE_HINT(prefetch2_nt)
+LRB_CACHE_HINT(prefetch2_ex_nt)
 LRB_CACHE_HINT(evict1)
 LRB_CACHE_HINT(evict2)
 #undef LRB_CACHE_HINT
@@ -20,6 +27,12 @@ LRB_CACHE_HINT(evict2)
 LRB_INLINE void lrb_delay(lrb_ctx *c, lrb_r64 a)
 {
     lrb_emit(c, LRB_OP_delay, 0, 0xffff, LRB_FROM(a), 0, 0, 0, (uint32_t)a.value);
+}
+
+/** A filter of performance counters, set from a: no state that a kernel sees. */
+LRB_INLINE void lrb_spflt(lrb_ctx *c, lrb_r64 a)
+{
+    lrb_emit(c, LRB_OP_spflt, 0, 0xffff, LRB_FROM(a), 0, 0, 0, 0);
 }
 
 #endif

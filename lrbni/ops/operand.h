@@ -65,6 +65,15 @@ LRB_INLINE lrb_mem lrb_at_index(lrb_ptr base, lrb_r64 index, unsigned scale, int
 /* A misaligned vector access faults on the machine (ISAM 2.1.1): the emulation stops at it. */
 #define LRB_ASSERT_ALIGNED(m, bytes) assert((m).address % (bytes) == 0 && "misaligned vector access")
 
+/** Whether an op that shares a value among each group of four lanes takes that form of S3 (ODB). */
+LRB_INLINE bool lrb_is_group_form(unsigned form)
+{
+    return form == LRB_FORM_REGISTER || form == LRB_FORM_MEMORY || form == (LRB_FORM_MEMORY | LRB_FORM_16_BYTES);
+}
+
+/** Whether S3 of that form is a register as it is, or 64 bytes of memory: what permutes take. */
+LRB_INLINE bool lrb_is_whole_form(unsigned form) { return form == LRB_FORM_REGISTER || form == LRB_FORM_MEMORY; }
+
 /* Swizzles of a register source: the word that lane 0, 1, 2, 3 of each group of four takes, two bits each. Named as
    the ISA writes them, lane 3 first. */
 typedef enum lrb_swizzle {

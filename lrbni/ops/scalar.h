@@ -2,6 +2,7 @@
 #ifndef LRBNI_OPS_SCALAR_H
 #define LRBNI_OPS_SCALAR_H
 
+#include "lrbni/ops/bits.h"
 #include "lrbni/ops/operand.h"
 
 /* LRB_MASK_BINARY(kand, a.bits & b.bits) */
@@ -16,12 +17,42 @@ LRB_MASK_BINARY(kand, a.bits & b.bits)
 LRB_MASK_BINARY(kandn, ~a.bits & b.bits)
 LRB_MASK_BINARY(kor, a.bits | b.bits)
 LRB_MASK_BINARY(kxor, a.bits ^ b.bits)
+LRB_MASK_BINARY(kxnor, ~(a.bits ^ b.bits))
+LRB_MASK_BINARY(kandnr, a.bits & ~b.bits)
+LRB_MASK_BINARY(kswapb, a.bits >> 8 | (b.bits & 0xff) << 8)
+LRB_MASK_BINARY(kmovlhb, (a.bits & 0xff) | (b.bits & 0xff) << 8)
 #undef LRB_MASK_BINARY
 
-LRB_INLINE lrb_k16 lrb_knot(lrb_ctx *c, lrb_k16 a)
+/* LRB_MASK_UNARY(knot, ~a.bits) */
+#define LRB_MASK_UNARY(id, result)                                                                        \
+    LRB_INLINE lrb_k16 lrb_##id(lrb_ctx *c, lrb_k16 a)                                                    \
+    {                                                                                                     \
+        lrb_k16 r = {.bits = (result) & 0xffffu};                                                         \
+        LRB_SET_FROM(r, lrb_emit(c, LRB_OP_##id, 0, 0xffff, LRB_FROM(a), 0, 0, 0, 0));                    \
+        return r;                                                                                         \
+    }
+LRB_MASK_UNARY(knot, ~a.bits)
+LRB_MASK_UNARY(kmov_kk, a.bits)
+#undef LRB_MASK_UNARY
+
+/* LRB_MASK_CONCATENATE(kconcath, 32): two masks in bits shift + 31 to shift of a general register, a above b, 0 elsewhere */
+#define LRB_MASK_CONCATENATE(id, shift)                                                                   \
+    LRB_INLINE lrb_r64 lrb_##id(lrb_ctx *c, lrb_k16 a, lrb_k16 b)                                         \
+    {                                                                                                     \
+        lrb_r64 r = {.value = (uint64_t)(a.bits << 16 | b.bits) << (shift)};                              \
+        LRB_SET_FROM(r, lrb_emit(c, LRB_OP_##id, 0, 0xffff, LRB_FROM(a), LRB_FROM(b), 0, 0, 0));          \
+        return r;                                                                                         \
+    }
+LRB_MASK_CONCATENATE(kconcath, 32)
+LRB_MASK_CONCATENATE(kconcatl, 0)
+#undef LRB_MASK_CONCATENATE
+
+/** Mask from 16 bits of a general register: the highest for n = 0, the lowest for n = 3. */
+LRB_INLINE lrb_k16 lrb_kextract(lrb_ctx *c, lrb_r64 a, unsigned n)
 {
-    lrb_k16 r = {.bits = ~a.bits & 0xffffu};
-    LRB_SET_FROM(r, lrb_emit(c, LRB_OP_knot, 0, 0xffff, LRB_FROM(a), 0, 0, 0, 0));
+    assert(n < 4);
+    lrb_k16 r = {.bits = (uint32_t)(a.value >> (48 - 16 * n)) & 0xffffu};
+    LRB_SET_FROM(r, lrb_emit(c, LRB_OP_kextract, 0, 0xffff, LRB_FROM(a), 0, 0, 0, 0));
     return r;
 }
 
@@ -48,16 +79,6 @@ LRB_INLINE lrb_flags lrb_kortest(lrb_ctx *c, lrb_k16 a, lrb_k16 b)
     return f;
 }
 
-/* Lowest set bit of b strictly above position a; a = -1 starts at bit 0; -1 if there is none. */
-LRB_INLINE uint64_t lrb_bit_above(uint64_t a, uint64_t b)
-{
-    int64_t position = (int64_t)a;
-    if (position >= 63)
-        return UINT64_MAX;
-    uint64_t rest = position < 0 ? b : b & (~UINT64_C(0) << (position + 1));
-    return rest ? (uint64_t)__builtin_ctzll(rest) : UINT64_MAX;
-}
-
 /* LRB_SCALAR_BINARY(add, a.value + b.value) */
 #define LRB_SCALAR_BINARY(id, result)                                                                     \
     LRB_INLINE lrb_r64 lrb_##id(lrb_ctx *c, lrb_r64 a, lrb_r64 b)                                         \
@@ -73,6 +94,10 @@ LRB_SCALAR_BINARY(or, a.value | b.value)
 LRB_SCALAR_BINARY(xor, a.value ^ b.value)
 LRB_SCALAR_BINARY(imul, a.value *b.value)
 LRB_SCALAR_BINARY(bsfi, lrb_bit_above(a.value, b.value))
+LRB_SCALAR_BINARY(bsri, lrb_bit_below(a.value, b.value))
+LRB_SCALAR_BINARY(tzcnti, lrb_zeros_from(a.value, b.value))
+LRB_SCALAR_BINARY(bitinterleave11, lrb_interleave(a.value, b.value, 1))
+LRB_SCALAR_BINARY(bitinterleave21, lrb_interleave(a.value, b.value, 2))
 LRB_SCALAR_BINARY(bts, a.value | UINT64_C(1) << (b.value & 63))
 #undef LRB_SCALAR_BINARY
 
@@ -86,6 +111,11 @@ LRB_SCALAR_BINARY(bts, a.value | UINT64_C(1) << (b.value & 63))
     }
 LRB_SCALAR_UNARY(mov, a.value)
 LRB_SCALAR_UNARY(popcnt, (uint64_t)__builtin_popcountll(a.value))
+LRB_SCALAR_UNARY(bsff, lrb_bit_above(UINT64_MAX, a.value))
+LRB_SCALAR_UNARY(bsrf, lrb_bit_below(64, a.value))
+LRB_SCALAR_UNARY(tzcnt, lrb_zeros_from(0, a.value))
+LRB_SCALAR_UNARY(lzcnt, 63 - lrb_bit_below(64, a.value))
+LRB_SCALAR_UNARY(quadmask16, lrb_quads(a.value))
 #undef LRB_SCALAR_UNARY
 
 LRB_INLINE lrb_r64 lrb_shl(lrb_ctx *c, lrb_r64 a, unsigned n)
@@ -101,6 +131,23 @@ LRB_INLINE lrb_r64 lrb_shr(lrb_ctx *c, lrb_r64 a, unsigned n)
     assert(n < 64);
     lrb_r64 r = {.value = a.value >> n};
     LRB_SET_FROM(r, lrb_emit(c, LRB_OP_shr, 0, 0xffff, LRB_FROM(a), 0, 0, 0, 0));
+    return r;
+}
+
+/** Bits low to high of a rotated left by n, 0 elsewhere; and a with those bits of b in place of its own. */
+LRB_INLINE lrb_r64 lrb_rotatefield(lrb_ctx *c, lrb_r64 a, unsigned n, unsigned low, unsigned high)
+{
+    assert(n < 64 && low <= high && high < 64);
+    lrb_r64 r = {.value = lrb_field(a.value, n, low, high)};
+    LRB_SET_FROM(r, lrb_emit(c, LRB_OP_rotatefield, 0, 0xffff, LRB_FROM(a), 0, 0, 0, 0));
+    return r;
+}
+
+LRB_INLINE lrb_r64 lrb_insertfield(lrb_ctx *c, lrb_r64 a, lrb_r64 b, unsigned n, unsigned low, unsigned high)
+{
+    assert(n < 64 && low <= high && high < 64);
+    lrb_r64 r = {.value = (a.value & ~lrb_field(UINT64_MAX, 0, low, high)) | lrb_field(b.value, n, low, high)};
+    LRB_SET_FROM(r, lrb_emit(c, LRB_OP_insertfield, 0, 0xffff, LRB_FROM(a), LRB_FROM(b), 0, 0, 0));
     return r;
 }
 
@@ -153,11 +200,26 @@ LRB_INLINE bool lrb_jump_if(lrb_ctx *c, uint32_t site, lrb_flags f, bool taken)
 #define lrb_jnz(c, flags) lrb_jump_if_not_zero(c, LRB_SITE, flags)
 #define lrb_jb(c, flags) lrb_jump_if_below(c, LRB_SITE, flags)
 #define lrb_jl(c, flags) lrb_jump_if_less(c, LRB_SITE, flags)
+#define lrb_jkzd(c, k) lrb_jump_if_mask_zero(c, LRB_SITE, k)
+#define lrb_jknzd(c, k) lrb_jump_if_mask_not_zero(c, LRB_SITE, k)
 
 LRB_INLINE bool lrb_jump_if_zero(lrb_ctx *c, uint32_t site, lrb_flags f) { return lrb_jump_if(c, site, f, f.zero); }
 LRB_INLINE bool lrb_jump_if_not_zero(lrb_ctx *c, uint32_t site, lrb_flags f) { return lrb_jump_if(c, site, f, !f.zero); }
 LRB_INLINE bool lrb_jump_if_below(lrb_ctx *c, uint32_t site, lrb_flags f) { return lrb_jump_if(c, site, f, f.carry); }
 LRB_INLINE bool lrb_jump_if_less(lrb_ctx *c, uint32_t site, lrb_flags f) { return lrb_jump_if(c, site, f, f.less); }
+
+/* The jumps of Knights Corner on a mask that is zero, or not. */
+LRB_INLINE bool lrb_jump_if_mask_zero(lrb_ctx *c, uint32_t site, lrb_k16 k)
+{
+    lrb_emit(c, LRB_OP_jkzd, 0, k.bits == 0, LRB_FROM(k), 0, 0, 0, site);
+    return k.bits == 0;
+}
+
+LRB_INLINE bool lrb_jump_if_mask_not_zero(lrb_ctx *c, uint32_t site, lrb_k16 k)
+{
+    lrb_emit(c, LRB_OP_jknzd, 0, k.bits != 0, LRB_FROM(k), 0, 0, 0, site);
+    return k.bits != 0;
+}
 
 /** An unconditional jump. */
 #define lrb_jmp(c) ((void)lrb_emit(c, LRB_OP_jmp, 0, 1, 0, 0, 0, 0, LRB_SITE))

@@ -3,23 +3,11 @@ import base64
 import json
 import os
 import struct
-import subprocess
 import sys
-import tempfile
 
-PROGRAM = sys.argv[1]
+from program import SMALL, fails, main, run, stats_of
+
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SMALL = ['--scene', 'builtin:rooms-804', '--size', '48x40']
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
-
-
-def stats_of(*arguments):
-    result = run('run-kernel', *arguments, '--stats', '-')
-    assert result.returncode == 0, result.stderr
-    return json.loads(result.stdout)
 
 
 def gltf(path, positions, indices=None, **changes):
@@ -44,16 +32,6 @@ def gltf(path, positions, indices=None, **changes):
     with open(path, 'w', encoding='utf-8') as file:
         json.dump(document, file)
     return path
-
-
-def fails(arguments, named, code=2):
-    """The command fails with one line that names what is wrong, and prints nothing else."""
-    result = run(*arguments)
-    lines = result.stderr.splitlines()
-    assert result.returncode == code, (arguments, result.returncode, result.stderr)
-    assert len(lines) == 1 and lines[0].startswith('lanetrace: error: '), (arguments, result.stderr)
-    assert named in lines[0], (arguments, lines[0])
-    assert result.stdout == '', (arguments, result.stdout)
 
 
 def usage__wrong_words__one_line_and_exit_2(folder):
@@ -88,11 +66,7 @@ def usage__wrong_words__one_line_and_exit_2(folder):
 
 
 def usage__features_of_later_versions__said_so(folder):
-    fails(['run-kernel', 'mft-primary', *SMALL, '--model', 'core'], 'not in this version')
     fails(['run-kernel', 'mft-primary', *SMALL, '--error', '0.1'], 'not in this version')
-    fails(['run-kernel', 'mft-primary', *SMALL, '--trace', folder + '/t.ltr'], 'not in this version')
-    fails(['replay', 'x.ltr'], 'not in this version')
-    assert not os.path.exists(folder + '/t.ltr')
 
 
 def scene_file__bad__one_line_names_the_file(folder):
@@ -123,7 +97,7 @@ def scene_file__no_camera_no_light__defaults_frame_it(folder):
 
 
 def output__unwritable__found_before_the_work(folder):
-    for option in ('--stats', '--image', '--aov', '--heatmap'):
+    for option in ('--stats', '--image', '--aov', '--heatmap', '--trace'):
         path = folder + '/no-such-folder/file' + ('.exr' if option == '--aov' else '.png')
         fails(['run-kernel', 'mft-primary', *SMALL, option, path], path)
     fails(['run-kernel', 'mft-primary', *SMALL, '--stats', folder], folder)
@@ -146,7 +120,7 @@ def output__failed_run__old_file_kept_and_nothing_left(folder):
 
 def stats__schema__as_promised(folder):
     s = stats_of('mft-primary', *SMALL)
-    assert s['schema'] == 'lanetrace-stats-1' and s['kernel'] == 'mft-primary' and s['model'] == 'issue'
+    assert s['schema'] == 'lanetrace-stats-1' and s['kernel'] == 'mft-primary' and s['model'] == 'core'
     assert s['machine']['name'] == 'larrabee' and len(s['machine']['hash']) == 16
     assert s['image'] == {'width': 48, 'height': 40} and s['scene']['triangles'] == 804
     assert s['scene']['accel']['kind'] == 'bvh' and s['scene']['accel']['nodes'] > s['scene']['accel']['leaves'] > 0
@@ -172,17 +146,27 @@ def stats__native__only_what_needs_no_accounting(folder):
 
 def stats__models_and_jobs__equal_counts(folder):
     for kernel in ('packet16-primary', 'mft-primary'):
-        native, count, issue = (stats_of(kernel, *SMALL, '--model', m) for m in ('native', 'count', 'issue'))
-        assert native['counts'] == count['counts'] == issue['counts']
-        assert count['ops'] == issue['ops']
-        for jobs in ('1', '2', '5'):
-            again = stats_of(kernel, *SMALL, '--jobs', jobs)
-            assert all(again[key] == issue[key] for key in ('counts', 'ops', 'cycles', 'scene', 'machine'))
+        native, count, issue, core = (stats_of(kernel, *SMALL, '--model', m) for m in ('native', 'count', 'issue', 'core'))
+        assert native['counts'] == count['counts'] == issue['counts'] == core['counts']
+        assert count['ops'] == issue['ops'] == core['ops']
+        for options in ([], ['--set', 'cores=3'], ['--model', 'issue']):
+            runs = [stats_of(kernel, *SMALL, *options, '--jobs', jobs) for jobs in ('1', '2', '5')]
+            assert all(run[key] == runs[0][key] for run in runs for key in ('counts', 'ops', 'cycles', 'scene', 'machine'))
+
+
+def stats__core__buckets_sum_to_total(folder):
+    for options in ([], ['--set', 'cores=3'], ['--machine', 'knc'], ['--set', 'threads=1']):
+        cycles = stats_of('mft-primary', *SMALL, *options)['cycles']
+        total, cores, threads = cycles['total'], cycles['cores'], cycles['threads']
+        assert sum(cycles['by_stall'].values()) == total * cores
+        assert sum(cycles['threads_by_stall'].values()) == total * cores * threads
+        idle = cycles['by_stall'].get('no_work', 0)
+        assert sum(cycles['by_phase'].values()) == sum(cycles['by_op'].values()) == total * cores - idle
 
 
 def stats__machine_overrides__change_cycles_and_hash_only(folder):
     base, slow = stats_of('mft-primary', *SMALL), stats_of('mft-primary', *SMALL, '--set', 'issue_gap=2')
-    assert slow['cycles']['total'] > base['cycles']['total'] and slow['cycles']['by_stall']['gap'] > 0
+    assert slow['cycles']['total'] > base['cycles']['total'] and slow['cycles']['threads_by_stall']['gap'] > 0
     assert slow['machine']['hash'] != base['machine']['hash'] and slow['counts'] == base['counts'] and slow['ops'] == base['ops']
     knc = stats_of('mft-primary', *SMALL, '--machine', 'knc')
     assert knc['cycles']['total'] > base['cycles']['total'] and knc['machine']['name'] == 'knc'
@@ -263,25 +247,4 @@ def help__every_subcommand__exit_0(folder):
     assert version.returncode == 0 and version.stdout.startswith('lanetrace ') and version.stdout.count('\n') == 1
 
 
-CASES = [value for name, value in list(globals().items()) if '__' in name and callable(value) and not name.startswith('__')]
-
-
-def main():
-    failed = False
-    print('1..%d' % len(CASES))
-    for number, case in enumerate(CASES, 1):
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                why = case(folder)
-                print('ok %d - %s' % (number, case.__name__))
-                if why:
-                    print('# skipped: %s: %s' % (case.__name__, why))
-            except Exception as fault:  # pylint: disable=broad-except
-                failed = True
-                print('not ok %d - %s' % (number, case.__name__))
-                for line in repr(fault).splitlines():
-                    print('# ' + line)
-    return failed
-
-
-sys.exit(main())
+sys.exit(main(globals()))

@@ -19,12 +19,15 @@ FRAGMENTS = {
     "lrbni/host/float_memory.h": "included by each back end below the functions that it calls",
     "lrbni/host/double_memory.h": "the same",
     "tests/library/intrinsic_call.h": "includes a header that the build makes",
+    "lrbni/host/common/conversions.h": "included by lanes.h below the back end",
+    "tests/lrbni/program_memory.h": "a part of program.c",
+    "lrbni/host/common/each_lane.h": "the same",
     "tests/scene/near.h": "to be included after cmocka.h, as it says",
 }
 
 # What a header needs of the command line: the level and source number that every kernel file has, a path, instructions.
 FLAGS = [
-    (re.compile(r"lrbni/host/avx2/"), ["-mavx2", "-mfma"]),
+    (re.compile(r"lrbni/host/avx2/"), ["-mavx2", "-mfma", "-mf16c"]),
     (re.compile(r"lrbni/host/avx512/"), ["-mavx512f", "-mavx2", "-mfma"]),
     (re.compile(r"(lrbni|kernels|lanetrace|tests)/"), ["-DLRB_LEVEL=2", "-DLRB_SOURCE=1"]),
     (re.compile(r"tests/sim/"), ['-DMACHINE_INI="larrabee.ini"']),

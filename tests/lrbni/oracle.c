@@ -21,7 +21,7 @@ static uint64_t bit_by_bit(uint64_t a, uint64_t b, int width, unsigned truth)
     return result;
 }
 
-enum { AND = 8, OR = 14, XOR = 6, NOT_A_AND_B = 2, NOT_A = 3 };
+enum { AND = 8, OR = 14, XOR = 6, XNOR = 9, NOT_A_AND_B = 2, A_AND_NOT_B = 4, NOT_A = 3 };
 
 /* Schoolbook addition, one bit after the other. */
 static uint64_t add_bits(uint64_t a, uint64_t b, unsigned carry, int width)
@@ -52,6 +52,7 @@ bool ref_cmple_pi(uint32_t a, uint32_t b) { return signed32(a) - signed32(b) <= 
 /* Moves */
 uint32_t ref_mov_ps(uint32_t b) { return b; }
 uint32_t ref_mov_pi(uint32_t b) { return b; }
+uint64_t ref_mov_pd(uint64_t b) { return b; }
 
 int ref_shuf128x32_ps(int lane, unsigned blocks, unsigned words)
 {
@@ -63,16 +64,6 @@ int ref_shuf128x32_ps(int lane, unsigned blocks, unsigned words)
     }
     return (int)(block_of[group] * 4 + word_of[word]);
 }
-
-static int word_of_memory(int lane, ref_load_form form)
-{
-    return form == REF_LOAD_1TO16 ? 0 : form == REF_LOAD_4TO16 ? lane % 4 : lane;
-}
-
-int ref_load_ps(int lane, ref_load_form form) { return word_of_memory(lane, form); }
-int ref_load_pi(int lane, ref_load_form form) { return word_of_memory(lane, form); }
-int ref_store_ps(int word) { return word; }
-int ref_store_pi(int word) { return word; }
 
 /* Mask registers */
 uint32_t ref_kand(uint32_t a, uint32_t b) { return (uint32_t)bit_by_bit(a, b, 16, AND); }
@@ -87,6 +78,23 @@ ref_flags ref_kortest(uint32_t a, uint32_t b)
     for (int i = 0; i < 16; i++)
         set += (a >> i & 1) || (b >> i & 1);
     return (ref_flags){.zero = set == 0, .carry = set == 16};
+}
+
+uint32_t ref_kxnor(uint32_t a, uint32_t b) { return (uint32_t)bit_by_bit(a, b, 16, XNOR); }
+uint32_t ref_kandnr(uint32_t a, uint32_t b) { return (uint32_t)bit_by_bit(a, b, 16, A_AND_NOT_B); }
+uint32_t ref_kmov_kk(uint32_t a) { return a; }
+
+/* Bytes as digits of base 256, masks of base 65536. */
+uint32_t ref_kswapb(uint32_t a, uint32_t b) { return b % 256 * 256 + a / 256; }
+uint32_t ref_kmovlhb(uint32_t a, uint32_t b) { return b % 256 * 256 + a % 256; }
+uint64_t ref_kconcath(uint32_t a, uint32_t b) { return (a * UINT64_C(65536) + b) * 65536 * 65536; }
+uint64_t ref_kconcatl(uint32_t a, uint32_t b) { return a * UINT64_C(65536) + b; }
+
+uint32_t ref_kextract(uint64_t a, unsigned n)
+{
+    for (; n < 3; n++)
+        a /= 65536;
+    return (uint32_t)(a % 65536);
 }
 
 uint32_t ref_kmov_kr(uint64_t a) { return (uint32_t)(a % 65536); }
@@ -133,6 +141,49 @@ uint64_t ref_bsfi(uint64_t a, uint64_t b)
     return UINT64_MAX;
 }
 
+/* Upwards, so that the last one found is the highest. */
+uint64_t ref_bsri(uint64_t a, uint64_t b)
+{
+    uint64_t found = UINT64_MAX;
+    for (int position = 0; position < 64 && position < (int64_t)a; position++)
+        if (b >> position & 1)
+            found = (uint64_t)position;
+    return found;
+}
+
+uint64_t ref_bsff(uint64_t a) { return ref_bsfi((uint64_t)INT64_C(-1), a); }
+uint64_t ref_bsrf(uint64_t a) { return ref_bsri(1000, a); }
+
+uint64_t ref_tzcnti(uint64_t a, uint64_t b)
+{
+    int64_t position = (int64_t)a < 0 ? 0 : (int64_t)a;
+    uint64_t count = 0;
+    if (position > 63)
+        return 64;
+    for (; position < 64 && !(b >> position & 1); position++)
+        count++;
+    return count;
+}
+
+uint64_t ref_tzcnt(uint64_t a) { return ref_tzcnti(0, a); }
+
+uint64_t ref_lzcnt(uint64_t a)
+{
+    uint64_t count = 64;
+    for (; a; a /= 2)
+        count--;
+    return count;
+}
+
+/* Digits of base 16. */
+uint64_t ref_quadmask16(uint64_t a)
+{
+    uint64_t result = 0;
+    for (int j = 0; j < 4; j++, a /= 16)
+        result += a % 16 ? UINT64_C(1) << j : 0;
+    return result;
+}
+
 uint64_t ref_bts(uint64_t a, uint64_t b)
 {
     uint64_t result = 0;
@@ -156,20 +207,6 @@ uint32_t ref_lea(uint32_t base, uint64_t index, unsigned scale, int32_t displace
     return (uint32_t)add_bits(address, (uint64_t)(int64_t)displacement, 0, 32);
 }
 
-/* Digits of base 256, the lowest first. */
-uint64_t ref_load32(const unsigned char *bytes)
-{
-    return bytes[0] + 256 * (bytes[1] + 256 * (bytes[2] + UINT64_C(256) * bytes[3]));
-}
-
-uint64_t ref_load16(const unsigned char *bytes) { return bytes[0] + 256u * bytes[1]; }
-
-void ref_store32(unsigned char *bytes, uint64_t a)
-{
-    for (int i = 0; i < 4; i++, a /= 256)
-        bytes[i] = (unsigned char)(a % 256);
-}
-
 /* Flags from the difference in wider integers: of the unsigned values, and of the signed ones. */
 ref_flags ref_cmp(uint64_t a, uint64_t b)
 {
@@ -191,12 +228,11 @@ bool ref_jcc(ref_flags flags, ref_condition condition)
     return holds[condition];
 }
 
+bool ref_jkzd(uint32_t a) { return a == 0; }
+bool ref_jknzd(uint32_t a) { return a > 0; }
 bool ref_jmp(void) { return true; }
 uint32_t ref_phase(uint32_t number) { return number; }
 uint32_t ref_region(uint32_t number) { return number; }
 
-uint32_t ref_prefetch1(uint32_t address) { return address; }
-uint32_t ref_prefetch2(uint32_t address) { return address; }
-uint32_t ref_evict1(uint32_t address) { return address; }
-uint32_t ref_evict2(uint32_t address) { return address; }
 uint32_t ref_delay(uint64_t a) { return (uint32_t)(a % 4294967296u); }
+uint32_t ref_spflt(uint64_t a) { return (void)a, 0; }

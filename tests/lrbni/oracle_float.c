@@ -61,6 +61,18 @@ static uint32_t subtract(uint32_t a, uint32_t b)
 uint32_t ref_sub_ps(uint32_t a, uint32_t b) { return subtract(a, b); }
 uint32_t ref_subr_ps(uint32_t a, uint32_t b) { return subtract(b, a); }
 
+uint32_t ref_addn_ps(uint32_t a, uint32_t b)
+{
+    return ref_is_nan(a) || ref_is_nan(b) ? add(a, b) : add(a ^ SIGN, b ^ SIGN);
+}
+
+uint32_t ref_addsets_ps(uint32_t a, uint32_t b, bool *k)
+{
+    uint32_t sum = add(a, b);
+    *k = sum >= SIGN;
+    return sum;
+}
+
 /* 24 times 24 bits are 48, and exponents go down to 2^-298 only: the product is exact. */
 uint32_t ref_mul_ps(uint32_t a, uint32_t b)
 {
@@ -98,8 +110,18 @@ static uint32_t fused(uint32_t a, uint32_t b, uint32_t c, uint32_t negate_produc
 uint32_t ref_madd132_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(d, b, a, 0, 0); }
 uint32_t ref_madd213_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(a, d, b, 0, 0); }
 uint32_t ref_madd231_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(a, b, d, 0, 0); }
+uint32_t ref_msub132_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(d, b, a, 0, SIGN); }
+uint32_t ref_msub213_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(a, d, b, 0, SIGN); }
 uint32_t ref_msub231_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(a, b, d, 0, SIGN); }
+uint32_t ref_msubr132_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(d, b, a, SIGN, 0); }
+uint32_t ref_msubr213_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(a, d, b, SIGN, 0); }
 uint32_t ref_msubr231_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(a, b, d, SIGN, 0); }
+
+uint32_t ref_maddn132_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(d, b, a, SIGN, SIGN); }
+uint32_t ref_maddn213_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(a, d, b, SIGN, SIGN); }
+uint32_t ref_maddn231_ps(uint32_t d, uint32_t a, uint32_t b) { return fused(a, b, d, SIGN, SIGN); }
+uint32_t ref_msubr23c1_ps(uint32_t a, uint32_t b) { return fused(a, b, 0x3f800000, SIGN, 0); }
+uint32_t ref_madd233_ps(uint32_t a, const uint32_t group[4]) { return fused(a, group[1], group[0], 0, 0); }
 
 /* Place of a float that is no NaN on the number line; both zeros are at 0. */
 static int64_t place(uint32_t bits)
@@ -115,6 +137,39 @@ static bool equal(uint32_t a, uint32_t b) { return !unordered(a, b) && place(a) 
 /* The second source, as it is, if the first is not strictly beyond it (isa-facts 1.5, non-g). */
 uint32_t ref_min_ps(uint32_t a, uint32_t b) { return less(a, b) ? a : b; }
 uint32_t ref_max_ps(uint32_t a, uint32_t b) { return less(b, a) ? a : b; }
+
+uint32_t ref_maxabs_ps(uint32_t a, uint32_t b) { return ref_max_ps(a % SIGN, b % SIGN); }
+
+/* The number, if only one is; the first NaN, if none is (isa-facts 1.5). */
+uint32_t ref_gmin_ps(uint32_t a, uint32_t b)
+{
+    if (unordered(a, b))
+        return !ref_is_nan(a) ? a : !ref_is_nan(b) ? b : a | QUIET;
+    return less(a, b) ? a : b;
+}
+
+uint32_t ref_gmax_ps(uint32_t a, uint32_t b)
+{
+    if (unordered(a, b))
+        return ref_gmin_ps(a, b);
+    return less(a, b) ? b : a;
+}
+
+uint32_t ref_gmaxabs_ps(uint32_t a, uint32_t b) { return ref_gmax_ps(a % SIGN, b % SIGN); }
+
+/* A negative limit is the mirror image of a positive one. */
+uint32_t ref_clampz_ps(uint32_t a, uint32_t b)
+{
+    if (ref_is_nan(b))
+        return ref_is_nan(a) ? 0 : a & SIGN;
+    if (b & SIGN)
+        return ref_clampz_ps(a ^ SIGN, b ^ SIGN) ^ SIGN;
+    if (ref_is_nan(a) || place(a) <= 0)
+        return 0;
+    return less(b, a) ? b : a;
+}
+
+uint32_t ref_blendm_ps(bool k, uint32_t a, uint32_t b) { return k ? b : a; }
 
 bool ref_cmpeq_ps(uint32_t a, uint32_t b) { return equal(a, b); }
 bool ref_cmplt_ps(uint32_t a, uint32_t b) { return less(a, b); }
@@ -159,6 +214,8 @@ static uint32_t reciprocal(uint32_t x)
         return sign | 0x7f800000;
     return sign | (q < 1u << 23 ? (uint32_t)q : (uint32_t)(exponent + 150) << 23 | ((uint32_t)q & 0x007fffff));
 }
+
+uint32_t ref_rcp23_ps(uint32_t b) { return ref_is_nan(b) ? b | QUIET : reciprocal(b); }
 
 /* Sign, exponent and 11 bits of mantissa are kept of the rounded quotient, and as many of a NaN. */
 uint32_t ref_rcpres_ps(uint32_t b)

@@ -108,6 +108,41 @@ static void sequence__by_hand__every_field(void **state)
     check(&e[15], LRB_OP_store_pi, 0xffff, 13, 0, 0, 1, scratch + 192);
 }
 
+/* A sum and its carries come from one event, which reads destination, S3, write-mask and the carries in. */
+static void carries__two_results__one_event_with_four_sources(void **state)
+{
+    fixture *f = *state;
+    lrb_ctx *c = f->c;
+    const uint32_t scratch = LRB_SCRATCH_ADDRESS;
+    lrb_ctx_begin(c);
+    lrb_ptr p = lrb_segment_at(c->scratch, 0);
+    lrb_v16i a = lrb_load_pi(c, lrb_at(p, 0));                                                        /* 0 */
+    lrb_v16i b = lrb_load_pi(c, lrb_at(p, 64));                                                       /* 1 */
+    lrb_k16 k = lrb_test_pi(c, a, b), carry = lrb_mask(0);                                            /* 2 */
+    lrb_v16i sum = lrb_addsetc_pi(c, a, b, &carry);                                                   /* 3 */
+    sum = lrb_mask_adc_pi_s3(c, sum, k, carry, lrb_swizzle_pi(b, LRB_BADC), &carry);                  /* 4 */
+    lrb_v16i blend = lrb_blendm_pi_s3(c, carry, sum, lrb_1to16_pi(lrb_at(p, 4)));                      /* 5 */
+    lrb_v8q wide = lrb_mask_xor_pq(c, lrb_castpi_pq(a), lrb_mask(0xff81), lrb_castpi_pq(blend), lrb_castpi_pq(sum)); /* 6 */
+    blend = lrb_alignd_pi(c, lrb_castpq_pi(wide), blend, 3);                                          /* 7 */
+    assert_false(lrb_jkzd(c, lrb_mask(1)));                                                           /* 8 */
+    assert_true(lrb_jkzd(c, lrb_kand(c, carry, lrb_mask(0))));                                        /* 9, 10 */
+    lrb_ctx_end(c);
+
+    const lrb_event *e = f->record.events;
+    assert_int_equal(f->record.count, 11);
+    check(&e[2], LRB_OP_test_pi, 0xffff, 2, 1, 0, 0, 0);
+    check(&e[3], LRB_OP_addsetc_pi, 0xffff, 0, 2, 0, 3, 0);
+    check(&e[4], LRB_OP_adc_pi | LRB_FORM_SWIZZLE, 0, 1, 3, 2, 1, 0);
+    check(&e[5], LRB_OP_blendm_pi | LRB_FORM_MEMORY | LRB_FORM_4_BYTES, 0xffff, 1, 0, 1, 0, scratch + 4);
+    check(&e[6], LRB_OP_xor_pq, 0xc003, 1, 2, 0, 6, 0);
+    check(&e[7], LRB_OP_alignd_pi, 0xffff, 1, 2, 0, 0, 0);
+    assert_int_equal(e[8].op, LRB_OP_jkzd);
+    assert_int_equal(e[8].mask, 0);
+    check(&e[9], LRB_OP_kand, 0xffff, 5, 0, 0, 0, 0);
+    assert_int_equal(e[10].mask, 1);
+    assert_int_equal(e[10].src[0], 1);
+}
+
 /* An untaken jump says so too, and an unconditional one is taken. */
 static void branches__taken_or_not__in_the_mask(void **state)
 {
@@ -225,6 +260,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(event__layout__sixteen_bytes),
         cmocka_unit_test_setup_teardown(sequence__by_hand__every_field, setup, teardown),
+        cmocka_unit_test_setup_teardown(carries__two_results__one_event_with_four_sources, setup, teardown),
         cmocka_unit_test_setup_teardown(branches__taken_or_not__in_the_mask, setup, teardown),
         cmocka_unit_test_setup_teardown(distance__at_far__becomes_zero, setup, teardown),
         cmocka_unit_test_setup_teardown(markers__between_op_and_use__not_counted, setup, teardown),

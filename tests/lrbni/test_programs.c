@@ -8,10 +8,11 @@
 
 #include <cmocka.h>
 
+#include "lrbni/base/hash.h"
 #include "tests/lrbni/operands.h"
 #include "tests/lrbni/program.h"
 
-enum { PROGRAMS = 2000, STEPS = 60, BYTES = 8 * STEPS };
+enum { PROGRAMS = 2000, STEPS = 60, BYTES = PROGRAM_STEP * STEPS };
 
 static program_state random_state(base_random *random)
 {
@@ -30,6 +31,24 @@ static program_state random_state(base_random *random)
     return s;
 }
 
+static void hash_events(void *user, const lrb_event *events, uint32_t count)
+{
+    uint64_t *hash = user;
+    *hash = base_hash(*hash, events, count * sizeof *events);
+}
+
+/* Run the program; returns the hash of its events. */
+static uint64_t events_of(program_fn *run, program_state *s, const uint8_t *code, size_t size)
+{
+    uint64_t hash = BASE_HASH_START;
+    lrb_ctx *c = NULL;
+    assert_int_equal(lrb_ctx_create(hash_events, &hash, &c, NULL), BASE_OK);
+    run(c, s, code, size);
+    lrb_ctx_end(c);
+    lrb_ctx_destroy(&c);
+    return hash;
+}
+
 /* SAME(v): the member is the same in both states */
 #define SAME(member)                                                          \
     if (memcmp(&ours.member, &theirs.member, sizeof ours.member) != 0)        \
@@ -43,14 +62,12 @@ static void agree(program_fn *run)
         uint8_t code[BYTES];
         for (int i = 0; i < BYTES; i++)
             code[i] = (uint8_t)base_random_bits(&random);
-        assert_int_equal(program_run_portable(&ours, code, sizeof code), 0);
-        assert_int_equal(run(&theirs, code, sizeof code), 0);
+        assert_true(events_of(program_run_portable, &ours, code, sizeof code) == events_of(run, &theirs, code, sizeof code));
         SAME(v)
         SAME(k)
         SAME(r)
         SAME(flags)
         SAME(p)
-        SAME(events)
         SAME(memory)
         assert_memory_not_equal(&ours, &start, sizeof ours);
     }

@@ -63,6 +63,13 @@ static void check_flags(const char *id, uint64_t a, uint64_t b, lrb_flags got, r
 #define ROW_R_R(id) EVERY_PAIR(id, check_value(#id, a, 0, lrb_##id(c, lrb_imm(a)).value, ref_##id(a)))
 #define ROW_R_RR(id) EVERY_PAIR(id, check_value(#id, a, b, lrb_##id(c, lrb_imm(a), lrb_imm(b)).value, ref_##id(a, b)))
 #define ROW_R_RI(id) EVERY_PAIR(id, check_value(#id, a, b & 63, lrb_##id(c, lrb_imm(a), b & 63).value, ref_##id(a, b & 63)))
+#define ROW_R_KK(id) EVERY_PAIR(id, check_value(#id, ka, kb, lrb_##id(c, lrb_mask(ka), lrb_mask(kb)).value, ref_##id(ka, kb)))
+#define ROW_K_RI(id) EVERY_PAIR(id, check_value(#id, a, b & 3, lrb_##id(c, lrb_imm(a), b & 3).bits, ref_##id(a, b & 3)))
+/* A field from `low` up, anywhere: its rotation and ends are made from b. */
+#define FIELD(b) (unsigned)((b) & 63), (unsigned)((b) >> 6 & 63), (unsigned)((b) >> 6 & 63) + (unsigned)((b) >> 12) % (64 - (unsigned)((b) >> 6 & 63))
+#define ROW_R_RIII(id) EVERY_PAIR(id, check_value(#id, a, b, lrb_##id(c, lrb_imm(a), FIELD(b)).value, ref_##id(a, FIELD(b))))
+#define ROW_R_RRIII(id) \
+    EVERY_PAIR(id, check_value(#id, a, b, lrb_##id(c, lrb_imm(a), lrb_imm(~b), FIELD(b)).value, ref_##id(a, ~b, FIELD(b))))
 #define ROW_F_RR(id) EVERY_PAIR(id, check_flags(#id, a, b, lrb_##id(c, lrb_imm(a), lrb_imm(b)), ref_##id(a, b)))
 
 /* ROW_P_PR(lea): addresses; the host pointer goes where the simulated address goes */
@@ -102,6 +109,19 @@ static void check_flags(const char *id, uint64_t a, uint64_t b, lrb_flags got, r
                          : condition == REF_BELOW      ? lrb_jb(c, f) : lrb_jl(c, f);                         \
             check_value(#id, (uint64_t)n, 0, taken, ref_##id(r, condition));                                  \
             check_event(c, LRB_OP_##id, ref_##id(r, condition), site);                                        \
+        }                                                                                                     \
+    }
+
+/* ROW_B_K(jkzd): every mask */
+#define ROW_B_K(id)                                                                                           \
+    static void id##__every_mask__as_oracle(void **state)                                                     \
+    {                                                                                                         \
+        lrb_ctx *c = *state;                                                                                  \
+        lrb_ctx_begin(c);                                                                                     \
+        for (uint32_t bits = 0; bits < 65536; bits++) {                                                       \
+            bool taken = lrb_##id(c, lrb_mask(bits));                                                         \
+            check_value(#id, bits, 0, taken, ref_##id(bits));                                                 \
+            check_event(c, LRB_OP_##id, ref_##id(bits), __LINE__ | LRB_SOURCE << 16);                         \
         }                                                                                                     \
     }
 
@@ -158,7 +178,12 @@ static void cmp_ptr__pairs__flags_of_addresses(void **state)
 #undef ROW_R_RI
 #undef ROW_F_RR
 #undef ROW_P_PR
+#undef ROW_R_KK
+#undef ROW_K_RI
+#undef ROW_R_RIII
+#undef ROW_R_RRIII
 #undef ROW_B_F
+#undef ROW_B_K
 #undef ROW_B
 #undef ROW_MARK
 #define PAIRS(id) cmocka_unit_test(id##__pairs__as_oracle),
@@ -173,6 +198,11 @@ static void cmp_ptr__pairs__flags_of_addresses(void **state)
 #define ROW_F_RR(id) PAIRS(id)
 #define ROW_P_PR(id) cmocka_unit_test(id##__bases_and_indices__as_oracle),
 #define ROW_B_F(id) cmocka_unit_test(id##__every_condition__as_oracle),
+#define ROW_R_KK(id) PAIRS(id)
+#define ROW_K_RI(id) PAIRS(id)
+#define ROW_R_RIII(id) PAIRS(id)
+#define ROW_R_RRIII(id) PAIRS(id)
+#define ROW_B_K(id) cmocka_unit_test(id##__every_mask__as_oracle),
 #define ROW_B(id) cmocka_unit_test(id##__taken__as_oracle),
 #define ROW_MARK(id) cmocka_unit_test(id##__any_number__in_the_event),
 

@@ -1,5 +1,8 @@
 #include "tests/sim/random_stream.h"
 
+#include <string.h>
+
+#include "lrbni/memory.h"
 #include "lrbni/op_table.h"
 
 /* What the ops of a tile have in common. */
@@ -36,6 +39,8 @@ static flavour random_flavour(base_random *random)
     f.lines = 1 + below(random, below(random, 2) ? 3 : 200);
     f.line_step = below(random, 2) ? 1 : 16u << below(random, 4);
     f.first_line = below(random, 2) ? below(random, 4) : (uint32_t)base_random_bits(random) / 64;
+    if (below(random, 4) == 0)
+        f.first_line = LRB_SCRATCH_ADDRESS / 64 - 2; /* into a thread's own memory */
     return f;
 }
 
@@ -49,10 +54,12 @@ static uint16_t random_distance(base_random *random, const flavour *f)
     return 0;
 }
 
+/* The last operand is a vector: V, VI, VD; in memory only where the shape does not load or store by itself. */
 static int takes_s3(lrb_shape shape)
 {
-    return shape == LRB_SHAPE_V_V || shape == LRB_SHAPE_V_VV || shape == LRB_SHAPE_V_VVV || shape == LRB_SHAPE_VI_V ||
-           shape == LRB_SHAPE_VI_VV || shape == LRB_SHAPE_K_VV || shape == LRB_SHAPE_KI_VV;
+    const char *name = lrb_shape_table[shape].name;
+    size_t length = strlen(name);
+    return lrb_shape_table[shape].access == LRB_ACCESS_NONE && length > 2 && (name[length - 1] == 'V' || name[length - 2] == 'V');
 }
 
 /* A form that the op can have. */
@@ -60,7 +67,12 @@ static unsigned random_form(base_random *random, lrb_shape shape)
 {
     static const unsigned broadcasts[] = {0, LRB_FORM_4_BYTES, LRB_FORM_8_BYTES, LRB_FORM_16_BYTES, LRB_FORM_32_BYTES};
     unsigned broadcast = broadcasts[below(random, 5)];
-    if (shape == LRB_SHAPE_V_M || shape == LRB_SHAPE_VI_M)
+    const char *name = lrb_shape_table[shape].name;
+    if (shape == LRB_SHAPE_R_M || shape == LRB_SHAPE_M_R)
+        return below(random, 2) ? LRB_FORM_8_BYTES : 0;
+    if (strstr(name, "MS") || strstr(name, "MVI"))
+        return below(random, 4) ? LRB_FORM_LINE : 0;
+    if (lrb_shape_table[shape].access == LRB_ACCESS_LOAD || lrb_shape_table[shape].access == LRB_ACCESS_STORE)
         return broadcast;
     if (!takes_s3(shape))
         return LRB_FORM_REGISTER;
@@ -91,12 +103,14 @@ static lrb_event random_op(base_random *random, const flavour *f)
     int is_vector = lrb_op_kind_of((lrb_op_id)id) == LRB_KIND_VECTOR;
     if (is_vector && below(random, 3) == 0)
         e.mask = (uint16_t)(below(random, 2) ? base_random_bits(random) : 1u << below(random, 16));
-    if (lrb_op_is_memory((lrb_op_id)id) || form & LRB_FORM_MEMORY) {
-        unsigned bytes = lrb_form_bytes(form) ? lrb_form_bytes(form) : is_vector ? 64 : 4;
-        e.aux = random_address(random, f, id == LRB_OP_load16 ? 2 : bytes);
+    if (lrb_op_access_of((lrb_op_id)id) != LRB_ACCESS_NONE || form & LRB_FORM_MEMORY) {
+        unsigned bytes = form == LRB_FORM_LINE ? 1 : lrb_form_bytes(form) ? lrb_form_bytes(form) : is_vector ? 64 : 2;
+        e.aux = random_address(random, f, bytes);
     } else if (lrb_op_table[id].class_id == LRB_CLASS_branch) {
         e.mask = (uint16_t)below(random, 2);
-        e.aux = below(random, 1000);
+        e.aux = below(random, below(random, 2) ? 1000 : 8);
+    } else if (id == LRB_OP_delay) {
+        e.aux = below(random, below(random, 4) ? 20 : 300);
     }
     return e;
 }

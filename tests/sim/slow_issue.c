@@ -1,6 +1,7 @@
 #include "tests/sim/slow_issue.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* What is known of an op once it has issued. */
 typedef struct issued_op {
@@ -49,20 +50,26 @@ static const lrb_op_info *info_of(const lrb_event *e)
     return &lrb_op_table[e->op & LRB_EVENT_ID];
 }
 
-static bool is_vector_store(const lrb_event *e)
-{
-    return info_of(e)->shape == LRB_SHAPE_M_V || info_of(e)->shape == LRB_SHAPE_M_VI;
-}
-
+/* Where the M for memory stands in the name of an event's shape, result first: before the _ it is stored to, behind it read; H is
+ * a hint. */
 static bool is_store(const lrb_event *e)
 {
-    return is_vector_store(e) || info_of(e)->shape == LRB_SHAPE_M_R;
+    return lrb_shape_table[info_of(e)->shape].name[0] == 'M' && info_of(e)->shape != LRB_SHAPE_MARK;
+}
+
+static bool is_vector_store(const lrb_event *e)
+{
+    return is_store(e) && strchr(lrb_shape_table[info_of(e)->shape].name, 'V');
+}
+
+static bool is_hint(const lrb_event *e)
+{
+    return info_of(e)->shape == LRB_SHAPE_H_M || info_of(e)->shape == LRB_SHAPE_H_MVI || info_of(e)->shape == LRB_SHAPE_H_VIM;
 }
 
 static bool is_load(const lrb_event *e)
 {
-    lrb_shape shape = info_of(e)->shape;
-    return shape == LRB_SHAPE_V_M || shape == LRB_SHAPE_VI_M || shape == LRB_SHAPE_R_M;
+    return strstr(lrb_shape_table[info_of(e)->shape].name, "_M") && !is_hint(e);
 }
 
 static bool is_vector(const lrb_event *e)
@@ -78,7 +85,7 @@ static bool is_marker(const lrb_event *e)
 /* How an event reads its source i: event.h says which source is what. */
 static sim_consumer consumer_of(const lrb_event *e, int i)
 {
-    bool is_address = (is_load(e) || is_store(e) || info_of(e)->shape == LRB_SHAPE_H_M) ? i == 0 || i == 1 : (e->op & LRB_FORM_MEMORY) && i == 1;
+    bool is_address = (is_load(e) || is_store(e) || is_hint(e)) ? i == 0 || i == 1 : (e->op & LRB_FORM_MEMORY) && i == 1;
     if (is_address)
         return SIM_CONSUMER_ADDRESS;
     if ((e->op & LRB_FORM_SWIZZLE && !is_load(e) && i == 1) || (is_vector_store(e) && i == 3) ||
@@ -108,10 +115,14 @@ static uint32_t words_touched(const lrb_event *e)
 {
     uint32_t words = 0;
     uint32_t first = e->aux % 64 / 4;
-    static const uint32_t words_of_form[16] = {[0x4] = 1, [0x5] = 2, [0xc] = 4, [0xd] = 8}; /* event.h: the top bits of op */
-    uint32_t many = is_vector(e) ? words_of_form[(e->op & LRB_FORM_BYTES) >> 12] : 1;
-    if (many == 0)
+    static const uint32_t words_of_form[16] = {[0x4] = 1, [0x5] = 2, [0x8] = 16, [0xc] = 4, [0xd] = 8}; /* event.h: the top bits of op */
+    uint32_t many = words_of_form[(e->op & LRB_FORM_BYTES) >> 12];
+    if (many == 0 && is_vector(e))
         return e->mask;
+    if (many == 0)
+        many = 1;
+    if (many == 16)
+        first = 0;
     for (uint32_t word = first; word < first + many && word < 16; word++)
         words |= 1u << word;
     return words;

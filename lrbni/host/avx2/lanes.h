@@ -1,8 +1,4 @@
-/* Sixteen lanes as two 32-byte halves: AVX2 and FMA. gcc 12 turns 64-byte vector types into scalar code.
- *
- * add, mul and the multiply-adds are written as instructions, not as intrinsics: compilers may swap the operands of an
- * intrinsic that looks commutative, and with two NaNs the first one must win (numeric.h).
- */
+/* Sixteen lanes as two 32-byte halves: AVX2 and FMA. gcc 12 turns 64-byte vector types into scalar code. */
 #ifndef LRBNI_HOST_AVX2_LANES_H
 #define LRBNI_HOST_AVX2_LANES_H
 
@@ -22,35 +18,6 @@ typedef struct lrb_f32x16 {
 typedef struct lrb_i32x16 {
     __m256i lo, hi;
 } lrb_i32x16;
-
-/* LANES_F2(add, "vaddps"): r = a + b, the first source first */
-#define LANES_F2(name, instruction)                                                                \
-    LANES_INLINE lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b)                          \
-    {                                                                                              \
-        lrb_f32x16 r;                                                                              \
-        __asm__(instruction " %2, %1, %0" : "=x"(r.lo) : "x"(a.lo), "x"(b.lo));                    \
-        __asm__(instruction " %2, %1, %0" : "=x"(r.hi) : "x"(a.hi), "x"(b.hi));                    \
-        return r;                                                                                  \
-    }
-LANES_F2(add, "vaddps")
-LANES_F2(sub, "vsubps")
-LANES_F2(mul, "vmulps")
-LANES_F2(min, "vminps")
-LANES_F2(max, "vmaxps")
-#undef LANES_F2
-
-/* LANES_F3(fmadd, "vfmadd231ps"): c = a * b + c */
-#define LANES_F3(name, instruction)                                                                \
-    LANES_INLINE lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b, lrb_f32x16 c)            \
-    {                                                                                              \
-        __asm__(instruction " %2, %1, %0" : "+x"(c.lo) : "x"(a.lo), "x"(b.lo));                    \
-        __asm__(instruction " %2, %1, %0" : "+x"(c.hi) : "x"(a.hi), "x"(b.hi));                    \
-        return c;                                                                                  \
-    }
-LANES_F3(fmadd, "vfmadd231ps")
-LANES_F3(fmsub, "vfmsub231ps")
-LANES_F3(fnmadd, "vfnmadd231ps")
-#undef LANES_F3
 
 LANES_INLINE lrb_f32x16 lanes_rcpres_ps(lrb_f32x16 a)
 {
@@ -76,22 +43,6 @@ LANES_INLINE uint32_t lanes_sign_bits(__m256 lo, __m256 hi)
 {
     return (uint32_t)_mm256_movemask_ps(lo) | (uint32_t)_mm256_movemask_ps(hi) << 8;
 }
-
-/* LANES_CMP_PS(cmplt_ps, _CMP_LT_OS) */
-#define LANES_CMP_PS(name, predicate)                                                              \
-    LANES_INLINE uint32_t lanes_##name(lrb_f32x16 a, lrb_f32x16 b)                                 \
-    {                                                                                              \
-        return lanes_sign_bits(_mm256_cmp_ps(a.lo, b.lo, predicate), _mm256_cmp_ps(a.hi, b.hi, predicate)); \
-    }
-LANES_CMP_PS(cmpeq_ps, _CMP_EQ_OQ)
-LANES_CMP_PS(cmplt_ps, _CMP_LT_OS)
-LANES_CMP_PS(cmple_ps, _CMP_LE_OS)
-LANES_CMP_PS(cmpunord_ps, _CMP_UNORD_Q)
-LANES_CMP_PS(cmpneq_ps, _CMP_NEQ_UQ)
-LANES_CMP_PS(cmpnlt_ps, _CMP_NLT_US)
-LANES_CMP_PS(cmpnle_ps, _CMP_NLE_US)
-LANES_CMP_PS(cmpord_ps, _CMP_ORD_Q)
-#undef LANES_CMP_PS
 
 LANES_INLINE uint32_t lanes_cmpeq_pi(lrb_i32x16 a, lrb_i32x16 b)
 {

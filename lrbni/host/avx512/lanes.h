@@ -1,4 +1,4 @@
-/* Sixteen lanes as one 64-byte register: AVX-512F. See host/avx2/lanes.h for why arithmetic is written as instructions. */
+/* Sixteen lanes as one 64-byte register: AVX-512F. */
 #ifndef LRBNI_HOST_AVX512_LANES_H
 #define LRBNI_HOST_AVX512_LANES_H
 
@@ -19,33 +19,6 @@ typedef struct lrb_i32x16 {
     __m512i v;
 } lrb_i32x16;
 
-/* LANES_F2(add, "vaddps"): r = a + b, the first source first */
-#define LANES_F2(name, instruction)                                                                \
-    LANES_INLINE lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b)                          \
-    {                                                                                              \
-        lrb_f32x16 r;                                                                              \
-        __asm__(instruction " %2, %1, %0" : "=v"(r.v) : "v"(a.v), "v"(b.v));                       \
-        return r;                                                                                  \
-    }
-LANES_F2(add, "vaddps")
-LANES_F2(sub, "vsubps")
-LANES_F2(mul, "vmulps")
-LANES_F2(min, "vminps")
-LANES_F2(max, "vmaxps")
-#undef LANES_F2
-
-/* LANES_F3(fmadd, "vfmadd231ps"): c = a * b + c */
-#define LANES_F3(name, instruction)                                                                \
-    LANES_INLINE lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b, lrb_f32x16 c)            \
-    {                                                                                              \
-        __asm__(instruction " %2, %1, %0" : "+v"(c.v) : "v"(a.v), "v"(b.v));                       \
-        return c;                                                                                  \
-    }
-LANES_F3(fmadd, "vfmadd231ps")
-LANES_F3(fmsub, "vfmsub231ps")
-LANES_F3(fnmadd, "vfnmadd231ps")
-#undef LANES_F3
-
 LANES_INLINE lrb_f32x16 lanes_rcpres_ps(lrb_f32x16 a)
 {
     __m512i exact = _mm512_castps_si512(_mm512_div_ps(_mm512_set1_ps(1.0f), a.v));
@@ -64,22 +37,6 @@ LANES_I2(and, _mm512_and_si512)
 LANES_I2(or, _mm512_or_si512)
 LANES_I2(xor, _mm512_xor_si512)
 #undef LANES_I2
-
-/* LANES_CMP_PS(cmplt_ps, _CMP_LT_OS) */
-#define LANES_CMP_PS(name, predicate)                                                              \
-    LANES_INLINE uint32_t lanes_##name(lrb_f32x16 a, lrb_f32x16 b)                                 \
-    {                                                                                              \
-        return _mm512_cmp_ps_mask(a.v, b.v, predicate);                                            \
-    }
-LANES_CMP_PS(cmpeq_ps, _CMP_EQ_OQ)
-LANES_CMP_PS(cmplt_ps, _CMP_LT_OS)
-LANES_CMP_PS(cmple_ps, _CMP_LE_OS)
-LANES_CMP_PS(cmpunord_ps, _CMP_UNORD_Q)
-LANES_CMP_PS(cmpneq_ps, _CMP_NEQ_UQ)
-LANES_CMP_PS(cmpnlt_ps, _CMP_NLT_US)
-LANES_CMP_PS(cmpnle_ps, _CMP_NLE_US)
-LANES_CMP_PS(cmpord_ps, _CMP_ORD_Q)
-#undef LANES_CMP_PS
 
 LANES_INLINE uint32_t lanes_cmpeq_pi(lrb_i32x16 a, lrb_i32x16 b) { return _mm512_cmpeq_epi32_mask(a.v, b.v); }
 LANES_INLINE uint32_t lanes_cmplt_pi(lrb_i32x16 a, lrb_i32x16 b) { return _mm512_cmplt_epi32_mask(a.v, b.v); }

@@ -18,67 +18,6 @@ typedef struct lrb_i32x16 {
     int32_t i[16];
 } lrb_i32x16;
 
-/* The loops below have no branch, so compilers make vector instructions of them. A NaN among the results is rare: only then
- * does each lane go through the rule of numeric.h, in a function of its own that keeps the loops short. */
-static inline int lanes_any_nan(lrb_f32x16 a)
-{
-    uint32_t any = 0;
-    for (int i = 0; i < 16; i++)
-        any |= a.f[i] != a.f[i];
-    return any != 0;
-}
-
-static __attribute__((cold, noinline, unused)) void lanes_nan_rule2(lrb_f32x16 *r, const lrb_f32x16 *a, const lrb_f32x16 *b)
-{
-    for (int i = 0; i < 16; i++)
-        r->f[i] = lrb_nan_rule2(r->f[i], a->f[i], b->f[i]);
-}
-
-static __attribute__((cold, noinline, unused)) void lanes_nan_rule3(lrb_f32x16 *r, const lrb_f32x16 *a, const lrb_f32x16 *b,
-                                                                    const lrb_f32x16 *c)
-{
-    for (int i = 0; i < 16; i++)
-        r->f[i] = lrb_nan_rule3(r->f[i], a->f[i], b->f[i], c->f[i]);
-}
-
-/* LANES_F2(add, a.f[i] + b.f[i], lanes_nan_rule2(...)): r.f[i] = a.f[i] + b.f[i] for every lane; a NaN by the rule, if one is named */
-#define LANES_F2(name, expression, nan_rule)                                   \
-    static inline lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b)     \
-    {                                                                          \
-        lrb_f32x16 r;                                                          \
-        for (int i = 0; i < 16; i++)                                           \
-            r.f[i] = expression;                                               \
-        nan_rule;                                                              \
-        return r;                                                              \
-    }
-#define LANES_NAN_RULE2         \
-    if (lanes_any_nan(r))       \
-    lanes_nan_rule2(&r, &a, &b)
-LANES_F2(add, a.f[i] + b.f[i], LANES_NAN_RULE2)
-LANES_F2(sub, a.f[i] - b.f[i], LANES_NAN_RULE2)
-LANES_F2(mul, a.f[i] * b.f[i], LANES_NAN_RULE2)
-/* min and max return the second source if either is a NaN or both are zero (ICC16, non-g variants). */
-LANES_F2(min, a.f[i] < b.f[i] ? a.f[i] : b.f[i], )
-LANES_F2(max, a.f[i] > b.f[i] ? a.f[i] : b.f[i], )
-#undef LANES_NAN_RULE2
-#undef LANES_F2
-
-/* LANES_F3(fmadd, fmaf(a.f[i], b.f[i], c.f[i])): the same for three sources */
-#define LANES_F3(name, expression)                                                           \
-    static inline lrb_f32x16 lanes_##name##_ps(lrb_f32x16 a, lrb_f32x16 b, lrb_f32x16 c)     \
-    {                                                                                        \
-        lrb_f32x16 r;                                                                        \
-        for (int i = 0; i < 16; i++)                                                         \
-            r.f[i] = expression;                                                             \
-        if (lanes_any_nan(r))                                                                \
-            lanes_nan_rule3(&r, &a, &b, &c);                                                 \
-        return r;                                                                            \
-    }
-LANES_F3(fmadd, fmaf(a.f[i], b.f[i], c.f[i]))
-LANES_F3(fmsub, fmaf(a.f[i], b.f[i], -c.f[i]))
-LANES_F3(fnmadd, fmaf(-a.f[i], b.f[i], c.f[i]))
-#undef LANES_F3
-
 static inline lrb_f32x16 lanes_rcpres_ps(lrb_f32x16 a)
 {
     lrb_f32x16 r;
@@ -106,7 +45,7 @@ LANES_I2(xor, ^)
 static const uint32_t lanes_bit[16] = {0x0001, 0x0002, 0x0004, 0x0008, 0x0010, 0x0020, 0x0040, 0x0080,
                                        0x0100, 0x0200, 0x0400, 0x0800, 0x1000, 0x2000, 0x4000, 0x8000};
 
-/* LANES_CMP(cmplt_ps, f32, a.f[i] < b.f[i]): bit i of the result */
+/* LANES_CMP(cmplt_pi, i32, a.i[i] < b.i[i]): bit i of the result */
 #define LANES_CMP(name, type, condition)                                       \
     static inline uint32_t lanes_##name(lrb_##type##x16 a, lrb_##type##x16 b)  \
     {                                                                          \
@@ -115,14 +54,6 @@ static const uint32_t lanes_bit[16] = {0x0001, 0x0002, 0x0004, 0x0008, 0x0010, 0
             k |= (condition) ? lanes_bit[i] : 0;                               \
         return k;                                                              \
     }
-LANES_CMP(cmpeq_ps, f32, a.f[i] == b.f[i])
-LANES_CMP(cmplt_ps, f32, a.f[i] < b.f[i])
-LANES_CMP(cmple_ps, f32, a.f[i] <= b.f[i])
-LANES_CMP(cmpunord_ps, f32, a.f[i] != a.f[i] || b.f[i] != b.f[i])
-LANES_CMP(cmpneq_ps, f32, !(a.f[i] == b.f[i]))
-LANES_CMP(cmpnlt_ps, f32, !(a.f[i] < b.f[i]))
-LANES_CMP(cmpnle_ps, f32, !(a.f[i] <= b.f[i]))
-LANES_CMP(cmpord_ps, f32, a.f[i] == a.f[i] && b.f[i] == b.f[i])
 LANES_CMP(cmpeq_pi, i32, a.i[i] == b.i[i])
 LANES_CMP(cmplt_pi, i32, a.i[i] < b.i[i])
 LANES_CMP(cmple_pi, i32, a.i[i] <= b.i[i])

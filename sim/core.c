@@ -1,0 +1,303 @@
+#include "sim/core_state.h"
+
+static void end_tile(sim_core *s, core_thread *h, const sim_core_feed *feed)
+{
+    core_end_tile(s, h);
+    if (feed->done)
+        feed->done(feed->user, (unsigned)(h - s->thread), h->regions);
+}
+
+/* Give a thread the next tile that has an op; without one, it has no more work. */
+static base_status next_tile(sim_core *s, core_thread *h, const sim_core_feed *feed, base_error *err)
+{
+    const unsigned t = (unsigned)(h - s->thread);
+    for (;;) {
+        const lrb_event *events = NULL;
+        size_t count = 0;
+        base_status status = feed->next(feed->user, t, &events, &count, err);
+        h->end = NULL;
+        if (status != BASE_OK)
+            return status;
+        if (!events) {
+            s->turn[t] = s->turn[t + s->threads] = CORE_NEVER;
+            s->working--;
+            return BASE_OK;
+        }
+        if (core_begin_tile(s, h, events, count)) {
+            h->price = h->op->price;
+            return BASE_OK;
+        }
+        end_tile(s, h, feed);
+    }
+}
+
+/* Results older than the window, of ops that waited for their lines. */
+static void need_late(const sim_core *s, const core_thread *h, const sim_op_price *p, const lrb_event *e, sim_blamed *at)
+{
+    for (unsigned i = 0; i < SIM_MAX_SOURCES; i++) {
+        uint32_t distance = e->src[i], number = h->next - distance;
+        const core_late_result *late = &h->late[number & (s->late_window - 1)];
+        if (distance >= s->window && distance <= h->next - h->tile_first && late->number == number)
+            sim_need(late->result.ready[p->consumer[i]], at);
+    }
+}
+
+/* Numbers that were just stored one by one are loaded one by one: a host's vector load would wait until they are in its cache. */
+static inline uint64_t keep_scalar(uint64_t number)
+{
+    __asm__("" : "+r"(number));
+    return number;
+}
+
+static inline sim_blamed later(sim_blamed a, sim_blamed b) { return a > b ? a : b; }
+
+/* When the thread's next op can issue, as far as its operands, its class and what blocks the thread are concerned. Which thread
+ * issues next varies so much that the host cannot foresee what its op waits for: so sources are compared without branches. */
+static inline sim_blamed earliest(const sim_core *s, core_thread *h)
+{
+    const core_op *op = h->op;
+    const sim_op_price *p = h->price = op->price;
+    const sim_blamed *ready = h->results->ready;
+    const sim_blamed first = later(keep_scalar(ready[op->source[0]]), keep_scalar(ready[op->source[1]]));
+    const sim_blamed second = later(keep_scalar(ready[op->source[2]]), keep_scalar(ready[op->source[3]]));
+    sim_blamed at = later(later(first, second), h->start);
+    if (h->late_until > sim_time_of(at))
+        need_late(s, h, p, op->event, &at);
+    if (h->stores_until > at && p->flags & SIM_PRICE_READS)
+        sim_need_stored(h->stores, p, op->event, &at);
+    if (p->flags & SIM_PRICE_LASTING)
+        sim_need(s->class_free[p->class_id], &at);
+    return at;
+}
+
+enum { ACCESS = SIM_PRICE_READS | SIM_PRICE_STORE };
+
+/* How long the thread's next op is held up in cycle `now` because as many lines as may be are under way; 0: it is not. */
+static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_t now)
+{
+    const lrb_event *e = h->op->event;
+    if (core_moves_nothing(e))
+        return 0;
+    if (h->price->flags & ACCESS) {
+        uint64_t free_at = h->misses.free_at;
+        return free_at > now && sim_hierarchy_would_miss(s->memory, core_line_of(s, h, e), now) ? sim_blame(free_at, SIM_BUCKET_MISSES) : 0;
+    }
+    uint64_t free_at = s->prefetches.free_at;
+    const lrb_hint hint = lrb_op_hint_of((lrb_op_id)(e->op & LRB_EVENT_ID));
+    bool misses = hint == LRB_HINT_PREFETCH1   ? sim_hierarchy_would_miss(s->memory, core_line_of(s, h, e), now)
+                  : hint == LRB_HINT_PREFETCH2 ? sim_hierarchy_would_miss_l2(s->memory, core_line_of(s, h, e), now)
+                                               : false;
+    return free_at > now && misses ? sim_blame(free_at, SIM_BUCKET_PREFETCHES) : 0;
+}
+
+/* Whether that is worth asking: some limit is reached, and the op may ask for a line. */
+static inline bool may_be_held(const sim_core *s, const core_thread *h, uint64_t now)
+{
+    return (h->misses.free_at > now || s->prefetches.free_at > now) &&
+           h->price->flags & (ACCESS | SIM_PRICE_HINT);
+}
+
+static inline void access_memory(sim_core *s, core_thread *h, const sim_op_price *p, const lrb_event *e)
+{
+    if (core_moves_nothing(e))
+        return;
+    sim_fetch fetch = sim_hierarchy_access(s->memory, core_line_of(s, h, e), s->now);
+    if (fetch.asked)
+        sim_slots_take(&h->misses, fetch.arrival);
+    if (fetch.arrival > s->now && p->flags & SIM_PRICE_READS)
+        core_delay_result(s, h, p, fetch);
+    if (p->flags & SIM_PRICE_STORE) {
+        const sim_store_line *line = &h->stores[e->aux / 64 % SIM_STORE_LINES];
+        sim_remember_store(h->stores, p, e, h->now);
+        h->stores_until = line->ready > h->stores_until ? line->ready : h->stores_until;
+    }
+}
+
+/* The thread's next op issues in this cycle. */
+static inline void perform(sim_core *s, core_thread *h)
+{
+    const sim_op_price *p = h->price;
+    const lrb_event *e = h->op->event;
+    h->start = sim_end_of_cycle(h->now);
+    h->partners = p->partners;
+    sim_put_result(&h->results[h->next & (s->window - 1)], &p->latency, h->now);
+    if (p->flags & ACCESS)
+        access_memory(s, h, p, e);
+    if (p->flags & (SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT | SIM_PRICE_TOLD)) {
+        if (p->flags & SIM_PRICE_LASTING)
+            core_outlast(s, h, p);
+        if (p->flags & SIM_PRICE_BRANCH)
+            core_take_branch(s, h, e);
+        if (p->flags & SIM_PRICE_HINT)
+            core_take_hint(s, h, e);
+        if (p->flags & SIM_PRICE_TOLD)
+            core_tell(s, h, e);
+    }
+    h->next++;
+    h->op++;
+}
+
+/* May two ops access memory in the same cycle? */
+static bool share_memory(sim_core *s, const core_thread *h, const lrb_event *first, const lrb_event *e)
+{
+    const sim_op_price *p = &s->price[first->op], *q = &s->price[e->op];
+    const unsigned banks = s->machine->l1.banks;
+    if (!(p->flags & ACCESS) || !(q->flags & ACCESS))
+        return true;
+    const unsigned loaded = (p->flags & SIM_PRICE_READS ? p->bytes : 0) + (q->flags & SIM_PRICE_READS ? q->bytes : 0);
+    const unsigned stored = (p->flags & SIM_PRICE_STORE ? p->bytes : 0) + (q->flags & SIM_PRICE_STORE ? q->bytes : 0);
+    const bool conflict = banks && core_line_of(s, h, first) % banks == core_line_of(s, h, e) % banks;
+    if (!conflict && loaded <= s->machine->l1.load_bytes_per_cycle && stored <= s->machine->l1.store_bytes_per_cycle)
+        return true;
+    s->stats.bank_conflicts++;
+    return false;
+}
+
+/* May the next op, which can issue at `at`, join the one that has just issued? */
+static inline bool joins(sim_core *s, const core_thread *h, const lrb_event *first, sim_blamed at)
+{
+    const unsigned partner = h->partners >> h->price->class_id & 1;
+    if (!(partner & (unsigned)(at == h->start)))
+        return false;
+    return !(h->price->flags & (ACCESS | SIM_PRICE_HINT)) ||
+           (!held_by_lines(s, h, s->now) && share_memory(s, h, first, h->op->event));
+}
+
+/* The cycles since the thread issued last, and those since the core did, go to their buckets, but for the gaps and the turns of
+   other threads: these are what is left of all cycles. The thread issues now. */
+static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycle)
+{
+    const uint64_t ready_at = s->turn[t] / CORE_TURN, gap_end = sim_time_of(h->now) + s->gap;
+    const unsigned bucket = s->why[t], id = h->op->event->op & (CORE_OPS - 1);
+    const uint64_t idle_from = gap_end > s->now + 1 ? gap_end : s->now + 1;
+    s->thread_waited[bucket] += ready_at - h->waits_from;
+    s->core_waited[bucket] += cycle - idle_from;
+    s->op_cycles[id] += cycle - s->now;
+    h->cycles += cycle - s->now;
+    s->now = cycle;
+    h->now = sim_blame(cycle, 0);
+}
+
+/* Issue an op, and perhaps the one after it, in this cycle. Gives when the next one can issue; 0: the tile has none left. */
+static inline sim_blamed issue(sim_core *s, core_thread *h)
+{
+    const lrb_event *first = h->op->event;
+    perform(s, h);
+    if (!core_find_op(s, h))
+        return 0;
+    sim_blamed at = earliest(s, h);
+    if (joins(s, h, first, at)) {
+        s->joins[h->price->class_id]++;
+        perform(s, h);
+        h->partners = 0;
+        at = core_find_op(s, h) ? earliest(s, h) : 0;
+    }
+    return at;
+}
+
+/* The first turn of the threads after thread t, the one that issued last; with the place in the order of choice added. */
+static inline uint64_t first_turn(const sim_core *s, unsigned t, uint64_t soonest)
+{
+    const uint64_t *turn = s->turn + t;
+    uint64_t first = UINT64_MAX;
+    for (unsigned i = 1; i < s->threads; i++) {
+        uint64_t mine = keep_scalar(turn[i]);
+        mine = (mine > soonest ? mine : soonest) + i;
+        first = mine < first ? mine : first;
+    }
+    return first;
+}
+
+/* A thread is dry: it takes the next tile. Its next op, if it has one, can issue at *at. */
+static base_status run_dry(sim_core *s, core_thread *h, const sim_core_feed *feed, sim_blamed *at, base_error *err)
+{
+    end_tile(s, h, feed);
+    base_status status = next_tile(s, h, feed, err);
+    if (status == BASE_OK && h->end)
+        *at = earliest(s, h);
+    return status;
+}
+
+/* All threads begin: their first ops can issue in the next cycle. */
+static base_status begin_run(sim_core *s, const sim_core_feed *feed, base_error *err)
+{
+    base_status status = BASE_OK;
+    if (s->now == 0)
+        s->now = s->gap; /* times stay above 0 where a thread's gap reaches back */
+    s->began = s->now;
+    s->working = s->threads;
+    for (unsigned t = 0; t < s->threads && status == BASE_OK; t++) {
+        core_thread *h = &s->thread[t];
+        h->waits_from = s->now + 1;
+        h->now = sim_blame(s->now + 1 - s->gap, 0);
+        h->start = sim_end_of_cycle(h->now);
+        status = next_tile(s, h, feed, err);
+        h->works = h->end;
+        s->runs_of_threads += h->works;
+        if (status == BASE_OK && h->works)
+            core_set_turn(s, t, sim_blame(s->now + 1, SIM_BUCKET_NONE));
+    }
+    return status;
+}
+
+/* Threads that ran dry had no work. */
+static void end_run(sim_core *s)
+{
+    s->stats.cycles += s->now - s->began;
+    for (unsigned t = 0; t < s->threads; t++)
+        s->stats.threads.no_work += s->now - (s->thread[t].works ? sim_time_of(s->thread[t].now) : s->began);
+}
+
+/* The thread whose turn it is, t, and the cycle: from the turn and place that first_turn found after thread `last`. */
+static inline unsigned thread_of(const sim_core *s, unsigned last, uint64_t turn)
+{
+    const unsigned t = last + (unsigned)(turn & (CORE_TURN - 1));
+    return t >= s->threads ? t - s->threads : t;
+}
+
+/* The first turn of all threads, that of thread t, which issued last, with the last place. */
+static uint64_t any_turn(const sim_core *s, unsigned t)
+{
+    const uint64_t soonest = (s->now + 1) * CORE_TURN, others = first_turn(s, t, soonest);
+    const uint64_t own = (s->turn[t] > soonest ? s->turn[t] : soonest) + s->threads;
+    return own < others ? own : others;
+}
+
+base_status sim_core_run(sim_core *s, const sim_core_feed *feed, base_error *err)
+{
+    base_status status = begin_run(s, feed, err);
+    uint64_t turn = any_turn(s, s->last);
+    while (status == BASE_OK && s->working) {
+        const unsigned t = thread_of(s, s->last, turn);
+        const uint64_t cycle = turn / CORE_TURN;
+        core_thread *h = &s->thread[t];
+        if (may_be_held(s, h, cycle)) {
+            sim_blamed held = held_by_lines(s, h, cycle);
+            if (held) {
+                core_settle(s, h, cycle);
+                core_set_turn(s, t, held);
+                turn = any_turn(s, s->last);
+                continue;
+            }
+        }
+        charge(s, h, t, cycle);
+        s->last = t;
+        sim_blamed at = issue(s, h);
+        h->waits_from = cycle + s->gap;
+        if (!at) {
+            status = run_dry(s, h, feed, &at, err);
+            if (!h->end) {
+                turn = any_turn(s, t);
+                continue;
+            }
+        }
+        const sim_blamed gap_end = sim_blame(cycle + s->gap, SIM_BUCKET_NONE);
+        at = at > gap_end ? at : gap_end;
+        core_set_turn(s, t, at);
+        const uint64_t others = first_turn(s, t, (cycle + 1) * CORE_TURN), own = sim_without_bucket(at) + s->threads;
+        turn = own < others ? own : others;
+    }
+    if (status == BASE_OK)
+        end_run(s);
+    return status;
+}

@@ -1,0 +1,153 @@
+/* The state of the core model, and the steps of an op that are shared by its files. Private to sim. */
+#ifndef SIM_CORE_STATE_H
+#define SIM_CORE_STATE_H
+
+#include <stdbool.h>
+
+#include "lrbni/memory.h"
+#include "sim/branch.h"
+#include "sim/core.h"
+#include "sim/pipeline.h"
+#include "sim/slots.h"
+
+/* Turns are blamed times that have a thread's place in the order of choice instead of the bucket. */
+enum { CORE_TURN = 256 };
+#define CORE_NEVER (UINT64_MAX - (CORE_TURN - 1))
+
+enum { CORE_OPS = 512 };
+_Static_assert((int)LRB_OP_COUNT <= CORE_OPS, "the counters have a place for every op");
+
+/* The result of an op that waited for its line: kept longer than others. */
+typedef struct core_late_result {
+    uint32_t number; /* of the op */
+    sim_result result;
+} core_late_result;
+
+/* An op of a tile, made ready for the loop a block at a time: what does not depend on time is found here, where a host foresees
+ * its branches. */
+typedef struct core_op {
+    const sim_op_price *price;
+    const lrb_event *event;
+    uint16_t source[SIM_MAX_SOURCES]; /* where in the thread's results each one's is, by kind of consumer; that behind the window if there is none */
+    uint32_t pause;                   /* markers before the op; CORE_END: there is no op here */
+} core_op;
+
+enum { CORE_BLOCK = 64 };
+#define CORE_END UINT32_MAX
+
+/* A hardware thread. Times are cycles, or blamed times where the type says so. */
+typedef struct core_thread {
+    const core_op *op;  /* that issues next */
+    const sim_op_price *price; /* its price, once it is known when the op can issue */
+    sim_blamed now;     /* of the last issue, bucket 0 */
+    sim_blamed start;   /* the next op issues later than this, unless it joins */
+    uint64_t waits_from; /* cycles before this are in a bucket, or in the gap */
+    sim_result *results; /* of the youngest ops, and a last one that is always 0 */
+    uint32_t next;      /* number of the next op */
+    uint32_t tile_first; /* number of the tile's first op */
+    uint32_t partners;  /* set of classes of which an op may join the last one in V */
+    uint32_t scratch;   /* displacement of the thread's scratch memory */
+    uint64_t late_until; /* no late result is ready later */
+    uint64_t stores_until; /* no store is ready later */
+    core_late_result *late;  /* by number of the op */
+    sim_slots misses;
+    sim_store_line stores[SIM_STORE_LINES];
+
+    uint64_t cycles;    /* core cycles so far that belong to the thread's ops */
+    uint64_t phase_start, region_start; /* of these */
+    uint32_t phase, region;
+    uint64_t regions[SIM_MAX_REGIONS + 1]; /* of the tile */
+
+    const lrb_event *decoded, *end; /* the tile's events from `decoded` on are not in the block yet; NULL: no tile */
+    uint32_t trailing;      /* markers before `decoded` that no op follows */
+    uint32_t decoded_phase;
+    bool works;             /* it has been given a tile with ops in this run */
+    core_op block[CORE_BLOCK + 1];
+} core_thread;
+
+struct sim_core {
+    const sim_machine *machine;
+    sim_op_price *price;
+    uint32_t window, late_window; /* powers of two */
+    uint64_t gap;
+    unsigned threads, line_bits, longest_latency;
+
+    /* The turn of a thread is the cycle in which its next op can issue, times CORE_TURN; CORE_NEVER: it has none. There are two
+       copies one after the other, so that those of the threads after any one lie in a row. */
+    uint64_t *turn;
+    uint8_t *why;      /* the bucket to blame for each thread's turn */
+    uint64_t now;      /* cycle in which the core issued last */
+    unsigned last;     /* thread that issued last */
+    unsigned working;  /* threads that have an op to issue */
+    core_thread *thread;
+    sim_blamed class_free[LRB_CLASS_COUNT];
+    sim_hierarchy *memory;
+    sim_predictor *predictor;
+    sim_slots prefetches; /* count 0: there may be none */
+
+    uint64_t ops[CORE_OPS], op_cycles[CORE_OPS];
+    uint64_t joins[LRB_CLASS_COUNT]; /* ops that joined another's cycle, by class */
+    uint64_t core_waited[SIM_BUCKETS], thread_waited[SIM_BUCKETS];
+    uint64_t began; /* the run */
+    uint64_t runs_of_threads; /* runs of all threads that had work */
+    sim_core_stats stats;
+
+    sim_observer *observer; /* or NULL */
+    void *observer_user;
+    uint64_t told; /* cycle of the op that it was told of last */
+};
+
+/** Set when a thread's next op can issue, and the bucket to blame. */
+static inline void core_set_turn(sim_core *s, unsigned t, sim_blamed ready)
+{
+    s->turn[t] = s->turn[t + s->threads] = sim_without_bucket(ready);
+    s->why[t] = (uint8_t)(ready & 0xff);
+}
+
+/** Whether an access or a hint is under a mask of no lanes; an S3 in memory is read whatever the mask. */
+static inline bool core_moves_nothing(const lrb_event *e)
+{
+    return e->mask == 0 && !(e->op & LRB_FORM_MEMORY);
+}
+
+/** Line of an event's address, scratch at the thread's own place. */
+static inline uint64_t core_line_of(const sim_core *s, const core_thread *h, const lrb_event *e)
+{
+    uint64_t address = e->aux;
+    return (address + (address >= LRB_SCRATCH_ADDRESS ? h->scratch : 0)) >> s->line_bits;
+}
+
+/** A tile has none of the ops of the one before: make its first block ready. False: it has no op at all. */
+bool core_begin_tile(sim_core *s, core_thread *h, const lrb_event *events, size_t count);
+
+/** All ops of the tile have issued: its cycles belong to its last phase and region. */
+void core_end_tile(sim_core *s, core_thread *h);
+
+/** What core_find_op does where markers stand or the block ends. */
+bool core_pass_markers(sim_core *s, core_thread *h);
+
+/** Go on to the thread's next op; false: the tile has none left. */
+static inline bool core_find_op(sim_core *s, core_thread *h)
+{
+    return !h->op->pause || core_pass_markers(s, h);
+}
+
+/** The data of the op that issues comes later than from the first level. */
+void core_delay_result(sim_core *s, core_thread *h, const sim_op_price *p, sim_fetch fetch);
+
+/** A branch issues. */
+void core_take_branch(sim_core *s, core_thread *h, const lrb_event *e);
+
+/** A prefetch, an eviction or a delay issues. */
+void core_take_hint(sim_core *s, core_thread *h, const lrb_event *e);
+
+/** An op of a lasting class issues: the class is busy for all threads, and the thread perhaps blocked. */
+void core_outlast(sim_core *s, core_thread *h, const sim_op_price *p);
+
+/** Tell the observer of the op that issues, or of a marker. */
+void core_tell(sim_core *s, const core_thread *h, const lrb_event *e);
+
+/** Put the cycles before `cycle` that a thread has spent into their buckets. */
+void core_settle(sim_core *s, core_thread *h, uint64_t cycle);
+
+#endif
