@@ -14,6 +14,17 @@
 #else
 typedef unsigned char __mmask8;
 typedef unsigned short __mmask16;
+typedef enum { _MM_MANT_NORM_1_2, _MM_MANT_NORM_p5_2, _MM_MANT_NORM_p5_1, _MM_MANT_NORM_p75_1p5 } _MM_MANTISSA_NORM_ENUM;
+typedef enum { _MM_MANT_SIGN_src, _MM_MANT_SIGN_zero, _MM_MANT_SIGN_nan } _MM_MANTISSA_SIGN_ENUM;
+enum {
+    _MM_FROUND_TO_NEAREST_INT,
+    _MM_FROUND_TO_NEG_INF,
+    _MM_FROUND_TO_POS_INF,
+    _MM_FROUND_TO_ZERO,
+    _MM_FROUND_CUR_DIRECTION,
+    _MM_FROUND_NO_EXC = 8
+};
+enum { _MM_CMPINT_EQ, _MM_CMPINT_LT, _MM_CMPINT_LE, _MM_CMPINT_NE = 4, _MM_CMPINT_NLT, _MM_CMPINT_NLE };
 enum { _MM_HINT_NTA, _MM_HINT_T2, _MM_HINT_T1, _MM_HINT_T0, _MM_HINT_ET1 = 6, _MM_HINT_ET0 };
 #endif
 
@@ -71,21 +82,11 @@ LRB_INLINE lrb_mem lanetrace_at(const void *host) { return lrb_at(lanetrace_poin
 /* A value in a general register, made by C's own operators. */
 LRB_INLINE lrb_r64 lanetrace_r(uint64_t value) { return lrb_imm(value); }
 
-/* LANETRACE_CAST(pi_of_ps, v16i, v16f, lanes_bits_ps(a.lanes)): the same register seen as other lanes; no op */
-#define LANETRACE_CAST(name, to, from_type, result)                 \
-    LRB_INLINE lrb_##to lanetrace_##name(lrb_##from_type a)         \
-    {                                                               \
-        lrb_##to r = {.lanes = result};                             \
-        LRB_SET_FROM(r, LRB_FROM(a));                               \
-        return r;                                                   \
-    }
-LANETRACE_CAST(q, v8q, v16i, lanes_pq_from_pi(a.lanes))
-LANETRACE_CAST(i, v16i, v8q, lanes_pi_from_pq(a.lanes))
-LANETRACE_CAST(i_of_f, v16i, v16f, lanes_bits_ps(a.lanes))
-LANETRACE_CAST(f_of_i, v16f, v16i, lanes_bits_pi(a.lanes))
-LANETRACE_CAST(i_of_d, v16i, v8d, lanes_pi_from_pq(lanes_bits_pd(a.lanes)))
-LANETRACE_CAST(d_of_i, v8d, v16i, lanes_bits_pq(lanes_pq_from_pi(a.lanes)))
-#undef LANETRACE_CAST
+/* The mode of a rounding operand; the current direction is to nearest even. */
+LRB_INLINE lrb_rounding lanetrace_rounding(int rounding)
+{
+    return rounding & _MM_FROUND_CUR_DIRECTION ? LRB_RN : (lrb_rounding)(rounding & 3);
+}
 
 /* Constants lie in the last line of the thread's scratch: the pool that a compiler would make. `bytes` at most 64. */
 LRB_INLINE lrb_mem lanetrace_constant(lrb_ctx *c, const void *value, size_t bytes)

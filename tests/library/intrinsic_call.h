@@ -15,11 +15,14 @@ typedef struct call_side {
     lrb_v16i i[3];
     lrb_v8d d[3];
     lrb_v8q q[3];
+    lrb_v16i index;     /* -60..60 */
     lrb_k16 k[2];
+    __mmask16 out;      /* a mask that a call gives beside its result */
     lrb_ptr p;          /* memory, 64-byte aligned */
     uint32_t *memory;   /* the same */
     uint32_t lanes[16]; /* the result: a vector, or a mask or scalar in the first words */
     uint32_t from;
+    uint32_t noted_out;
     bool has_from; /* a mask that left the intrinsic as an integer has none */
 } call_side;
 
@@ -35,5 +38,8 @@ void note_d(call_side *s, lrb_v8d v);
 void note_q(call_side *s, lrb_v8q v);
 void note_k(call_side *s, lrb_k16 k);
 void note_bits(call_side *s, uint64_t bits);
+
+/** And a mask beside it. */
+void note_out(call_side *s, uint32_t bits);
 
 #endif

@@ -33,8 +33,8 @@ void note_i(call_side *s, lrb_v16i v)
 }
 
 void note_f(call_side *s, lrb_v16f v) { note_i(s, lrb_castps_pi(v)); }
-void note_q(call_side *s, lrb_v8q v) { note_i(s, lanetrace_i(v)); }
-void note_d(call_side *s, lrb_v8d v) { note_i(s, lanetrace_i_of_d(v)); }
+void note_q(call_side *s, lrb_v8q v) { note_i(s, lrb_castpq_pi(v)); }
+void note_d(call_side *s, lrb_v8d v) { note_i(s, lrb_castpq_pi(lrb_castpd_pq(v))); }
 void note_k(call_side *s, lrb_k16 k) { note_bits(s, k.bits); }
 
 void note_bits(call_side *s, uint64_t bits)
@@ -44,9 +44,11 @@ void note_bits(call_side *s, uint64_t bits)
     s->has_from = false;
 }
 
+void note_out(call_side *s, uint32_t bits) { s->noted_out = bits; }
+
 /* The same operands on either side: vectors that loads made, masks that compares made. */
 typedef struct call_input {
-    uint32_t words[3][16], memory[CALL_WORDS], masks[2];
+    uint32_t words[3][16], index[16], memory[CALL_WORDS], masks[2];
 } call_input;
 
 static void make_input(call_input *in, int round, base_random *random)
@@ -54,6 +56,8 @@ static void make_input(call_input *in, int round, base_random *random)
     for (int v = 0; v < 3; v++)
         for (int i = 0; i < 16; i++)
             in->words[v][i] = round < 8 ? boundary_bits[(16 * round + 5 * v + (v + 1) * i) % BOUNDARY_BITS] : random_bits(random);
+    for (int i = 0; i < 16; i++)
+        in->index[i] = (uint32_t)(base_random_bits(random) % 121) - 60;
     for (int i = 0; i < CALL_WORDS; i++)
         in->memory[i] = random_bits(random);
     in->masks[0] = mask_number(round % MASKS, random);
@@ -77,9 +81,11 @@ static void fill_side(call_side *s, lrb_ctx *c, lrb_segment segment, const call_
         memcpy(memory, in->words[v], 64);
         s->f[v] = lrb_load_ps(c, lrb_at(s->p, 0));
         s->i[v] = lrb_load_pi(c, lrb_at(s->p, 0));
-        s->d[v] = lanetrace_d_of_i(s->i[v]);
-        s->q[v] = lanetrace_q(s->i[v]);
+        s->q[v] = lrb_castpi_pq(s->i[v]);
+        s->d[v] = lrb_castpq_pd(s->q[v]);
     }
+    memcpy(memory, in->index, 64);
+    s->index = lrb_load_pi(c, lrb_at(s->p, 0));
     for (int k = 0; k < 2; k++)
         s->k[k] = make_mask(c, in->masks[k]);
     memcpy(memory, in->memory, sizeof memory);
@@ -101,6 +107,8 @@ static void compare_sides(const call_pair *call, const call_side *a, const call_
         for (int i = 0; i < 16; i++)
             if (a->lanes[i] != b->lanes[i])
                 fail_msg("%s: word %d is %08x, with ops %08x", call->name, i, a->lanes[i], b->lanes[i]);
+    if (a->noted_out != b->noted_out)
+        fail_msg("%s: the mask beside it is %04x, with ops %04x", call->name, a->noted_out, b->noted_out);
     if (a->has_from && b->has_from && a->from != b->from)
         fail_msg("%s: made by event %u, with ops %u", call->name, a->from, b->from);
     if (memcmp(memory_a, memory, sizeof memory) != 0)
