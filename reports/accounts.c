@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <jansson.h>
 
@@ -77,7 +78,7 @@ static void set_if_any(json_t *object, const char *prefix, const char *name, uin
 }
 
 /* Cycles waited for results of one class, however they were to be read. */
-static uint64_t operand_wait(const sim_issue_stats *s, int class_id)
+static uint64_t operand_wait(const sim_cycles *s, int class_id)
 {
     uint64_t sum = 0;
     for (int kind = 0; kind < SIM_CONSUMERS; kind++)
@@ -85,22 +86,56 @@ static uint64_t operand_wait(const sim_issue_stats *s, int class_id)
     return sum;
 }
 
-static json_t *stalls_json(const sim_issue_stats *s)
+json_t *report_stalls_json(const sim_cycles *s)
 {
     json_t *object = json_object();
     json_object_set_new(object, "issued_one", integer(s->issued_one));
     json_object_set_new(object, "issued_pair", integer(s->issued_pair));
     for (int k = 0; k < LRB_CLASS_COUNT; k++)
         set_if_any(object, "operand_", lrb_cost_classes[k].name, operand_wait(s, k));
+    set_if_any(object, "", "l2", s->l2);
+    set_if_any(object, "", "memory", s->memory);
     set_if_any(object, "", "store_forward", s->store_forward);
     for (int k = 0; k < LRB_CLASS_COUNT; k++)
         set_if_any(object, "busy_", lrb_cost_classes[k].name, s->busy[k]);
     set_if_any(object, "", "blocked", s->blocked);
+    set_if_any(object, "", "delay", s->delay);
+    set_if_any(object, "", "mispredict", s->mispredict);
+    set_if_any(object, "", "btb_miss", s->btb_miss);
+    set_if_any(object, "", "misses_under_way", s->misses);
+    set_if_any(object, "", "prefetches_under_way", s->prefetches);
     set_if_any(object, "", "gap", s->gap);
+    set_if_any(object, "", "other_thread", s->other_thread);
+    set_if_any(object, "", "no_work", s->no_work);
     return object;
 }
 
-void report_basis_shares(const report_accounts *a, double share[SIM_BASIS_COUNT])
+/* Where the cycles of the model issue went. */
+static sim_cycles cycles_of(const sim_issue_stats *s)
+{
+    sim_cycles cycles = {.issued_one = s->issued_one, .issued_pair = s->issued_pair, .gap = s->gap, .store_forward = s->store_forward,
+                         .blocked = s->blocked};
+    memcpy(cycles.operand, s->operand, sizeof cycles.operand);
+    memcpy(cycles.busy, s->busy, sizeof cycles.busy);
+    return cycles;
+}
+
+/* The latency of a level of memory has one field. */
+static void charge_plain_fields(const sim_cycles *s, uint64_t by_field[SIM_FIELDS])
+{
+    by_field[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)] += s->store_forward;
+    by_field[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)] += s->blocked;
+    by_field[sim_class_field(LRB_CLASS_delay, SIM_KEY_throughput)] += s->delay;
+    by_field[SIM_FIELD_machine_issue_gap] += s->gap;
+    by_field[SIM_FIELD_l2_latency] += s->l2;
+    by_field[SIM_FIELD_memory_latency] += s->memory;
+    by_field[SIM_FIELD_branch_mispredict_penalty] += s->mispredict;
+    by_field[SIM_FIELD_branch_btb_miss_penalty] += s->btb_miss;
+    by_field[SIM_FIELD_memory_demand_misses_per_thread] += s->misses;
+    by_field[SIM_FIELD_memory_prefetches_per_core] += s->prefetches;
+}
+
+void report_cycles_by_field(const sim_machine *machine, const sim_cycles *s, const uint64_t *issued, uint64_t by_field[SIM_FIELDS])
 {
     static const sim_class_key latency_key[SIM_CONSUMERS] = {
         [SIM_CONSUMER_PLAIN] = SIM_KEY_latency,
@@ -108,24 +143,31 @@ void report_basis_shares(const report_accounts *a, double share[SIM_BASIS_COUNT]
         [SIM_CONSUMER_BRANCH] = SIM_KEY_latency_to_branch,
         [SIM_CONSUMER_ADDRESS] = SIM_KEY_latency_to_address,
     };
-    const sim_issue_stats *s = a->issue;
-    const sim_machine_value *v = a->machine->values;
-    uint64_t cycles[SIM_BASIS_COUNT] = {0};
-    for (int i = 0; s && i < LRB_CLASS_COUNT; i++) {
+    memset(by_field, 0, SIM_FIELDS * sizeof *by_field);
+    for (int i = 0; i < LRB_CLASS_COUNT; i++) {
         lrb_cost_class k = (lrb_cost_class)i;
-        cycles[v[sim_class_field(k, SIM_KEY_throughput)].basis] += s->issued_by_class[k] + s->busy[k];
+        by_field[sim_class_field(k, SIM_KEY_throughput)] += issued[k] + s->busy[k];
         for (int kind = 0; kind < SIM_CONSUMERS; kind++) {
             size_t field = sim_class_field(k, latency_key[kind]);
-            cycles[v[v[field].given ? field : sim_class_field(k, SIM_KEY_latency)].basis] += s->operand[k][kind];
+            by_field[machine->values[field].given ? field : sim_class_field(k, SIM_KEY_latency)] += s->operand[k][kind];
         }
     }
-    if (s) {
-        cycles[v[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)].basis] += s->store_forward;
-        cycles[v[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)].basis] += s->blocked;
-        cycles[v[SIM_FIELD_machine_issue_gap].basis] += s->gap;
+    charge_plain_fields(s, by_field);
+}
+
+void report_basis_shares(const report_accounts *a, double share[SIM_BASIS_COUNT])
+{
+    uint64_t by_field[SIM_FIELDS] = {0}, cycles[SIM_BASIS_COUNT] = {0}, sum = 0;
+    if (a->issue) {
+        const sim_cycles s = cycles_of(a->issue);
+        report_cycles_by_field(a->machine, &s, a->issue->issued_by_class, by_field);
+    }
+    for (size_t field = 0; field < SIM_FIELDS; field++) {
+        cycles[a->machine->values[field].basis] += by_field[field];
+        sum += by_field[field];
     }
     for (int i = 0; i < SIM_BASIS_COUNT; i++)
-        share[i] = s && s->cycles ? (double)cycles[i] / (double)s->cycles : 0;
+        share[i] = sum ? (double)cycles[i] / (double)sum : 0;
 }
 
 json_t *report_cycles_json(const report_accounts *a)
@@ -134,12 +176,13 @@ json_t *report_cycles_json(const report_accounts *a)
     json_object_set_new(object, "total", integer(a->cycles));
     if (a->issue) {
         double share[SIM_BASIS_COUNT];
+        const sim_cycles cycles = cycles_of(a->issue);
         json_t *basis = json_object();
         report_basis_shares(a, share);
         for (int i = 0; i < SIM_BASIS_COUNT; i++)
             json_object_set_new(basis, sim_basis_name((sim_basis)i), report_json_real(share[i], REPORT_RATIO_DECIMALS));
         json_object_set_new(object, "by_phase", phases_json(a));
-        json_object_set_new(object, "by_stall", stalls_json(a->issue));
+        json_object_set_new(object, "by_stall", report_stalls_json(&cycles));
         json_object_set_new(object, "by_basis", basis);
     }
     return object;
@@ -190,8 +233,9 @@ void report_accounts_rows(report_table *t, const report_accounts *a)
     report_table_begin_group(t, "simulated cycles");
     add_row(t, "total", a->cycles);
     if (a->issue) {
+        const sim_cycles cycles = cycles_of(a->issue);
         add_object(t, "cycles by phase", phases_json(a));
-        add_object(t, "cycles by stall", stalls_json(a->issue));
+        add_object(t, "cycles by stall", report_stalls_json(&cycles));
     }
     add_notes(t, a);
 }

@@ -4,6 +4,7 @@
 
 #include "lrbni/op_table.h"
 #include "reports/table.h"
+#include "sim/cycles.h"
 #include "sim/issue.h"
 #include "sim/machine.h"
 
@@ -32,6 +33,16 @@ report_op_totals report_accounts_totals(const report_accounts *a);
 struct json_t *report_machine_json(const sim_machine *machine);
 struct json_t *report_ops_json(const report_accounts *a);
 struct json_t *report_cycles_json(const report_accounts *a);
+
+/** The buckets by name, those that are 0 left out but for the issues'; a new reference. */
+struct json_t *report_stalls_json(const sim_cycles *cycles);
+
+/**
+ * Cycles by the field of the machine that they are charged to, issues of a class to its throughput.
+ *
+ * @param issued  issue cycles by class, LRB_CLASS_COUNT of them
+ */
+void report_cycles_by_field(const sim_machine *machine, const sim_cycles *cycles, const uint64_t *issued, uint64_t by_field[SIM_FIELDS]);
 
 /** Share of the cycles that rests on each basis of the machine's numbers, summing to 1; all 0 for the model count. */
 void report_basis_shares(const report_accounts *a, double share[SIM_BASIS_COUNT]);

@@ -43,6 +43,12 @@ def environment(folder, source, build, compiler, sanitizers):
                 PKG_CONFIG_PATH=":".join(configs), PKG_CONFIG_SYSROOT_DIR=root)
 
 
+def compilers(compiler, sanitizers):
+    """The build's compiler, and the other of gcc and clang where it is there and no sanitizer's run-time library is in the way."""
+    others = [other for other in ("gcc", "clang") if shutil.which(other) and other not in os.path.basename(compiler)]
+    return [compiler] + (others if sanitizers == "none" else [])
+
+
 def commands(text):
     """(command, expected output) of a console block."""
     for part in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
@@ -105,15 +111,12 @@ def main():
     path = os.path.join(source, PAGE)
     with open(path, encoding="utf-8") as file:
         text = file.read()
-    compilers = [compiler]
-    if sanitizers == "none":
-        compilers += [other for other in ("gcc", "clang") if shutil.which(other) and other not in os.path.basename(compiler)]
     with tempfile.TemporaryDirectory() as folder:
         if "--update" in sys.argv:
             update(path, text, list(Run(source, build, folder, compiler, sanitizers, True).page(text)))
             return
         number = 0
-        for one in compilers:
+        for one in compilers(compiler, sanitizers):
             for command, expected, printed in Run(source, build, folder, one, sanitizers, has_avx2()).page(text):
                 number += 1
                 same = printed is None or printed == expected
