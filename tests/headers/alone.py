@@ -18,6 +18,8 @@ CPP = re.compile(r"(scene/[^/]+|sim/machine|reports/[^/]+|lrbni/base/[^/]+)\.h$"
 FRAGMENTS = {
     "lrbni/host/float_memory.h": "included by each back end below the functions that it calls",
     "lrbni/host/double_memory.h": "the same",
+    "lrbni/host/common/arith.h": "included by each back end below its primitives",
+    "lrbni/host/common/integer.h": "included by host/lanes.h below the primitives that it is made from",
     "tests/scene/near.h": "to be included after cmocka.h, as it says",
 }
 
