@@ -18,8 +18,8 @@ CPP = re.compile(r"(scene/[^/]+|sim/machine|reports/[^/]+|lrbni/base/[^/]+)\.h$"
 FRAGMENTS = {
     "lrbni/host/float_memory.h": "included by each back end below the functions that it calls",
     "lrbni/host/double_memory.h": "the same",
-    "lrbni/host/common/arith.h": "included by each back end below its primitives",
-    "lrbni/host/common/integer.h": "included by host/lanes.h below the primitives that it is made from",
+    "lrbni/host/common/arith.h": "the same",
+    "lrbni/host/common/integer.h": "included by lanes.h below the back end",
     "tests/scene/near.h": "to be included after cmocka.h, as it says",
 }
 
