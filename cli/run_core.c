@@ -106,7 +106,8 @@ static base_status simulate_single(chip *c, unsigned jobs, base_error *err)
     core_run r = {.result = c->result, .bar = c->bar, .step = 1, .recorder = &c->recorders[0]};
     base_status status = BASE_OK;
     if (jobs > 1)
-        status = record_ahead_start(c->recorders + 1, jobs - 1, kernel_job_tiles(c->result->job), c->result->machine->threads, &r.ahead, err);
+        status = record_ahead_start(c->recorders + 1, jobs - 1, kernel_job_tiles(c->result->job), c->result->machine->threads,
+                                    &r.ahead, err);
     if (status == BASE_OK)
         status = simulate(&r, c->stats, err);
     record_ahead_stop(&r.ahead);
