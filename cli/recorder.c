@@ -99,7 +99,7 @@ static base_status record_tile(recorder *r, uint32_t tile, recording *into, base
         input->tile_counts[tile] = counts;
     if (into->failed)
         return out_of_memory(err);
-    if (input->trace->writer)
+    if (input->trace && input->trace->writer)
         record_trace(r, tile, into);
     return BASE_OK;
 }

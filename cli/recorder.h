@@ -36,7 +36,7 @@ typedef struct recorder_input {
     const kernel_info *kernel; /* of a run, which also has a job */
     const kernel_job *job;
     kernel_counts *tile_counts; /* out: by tile, or NULL */
-    run_trace *trace;           /* takes what the kernel records; its writer may be NULL */
+    run_trace *trace;           /* takes what the kernel records; it, or its writer, may be NULL */
     const trace_reader *replayed; /* of a replay: the trace; none of the above then */
     tile_exchange *exchange;      /* of a replay on several machines: the others that read the trace, or NULL */
     unsigned member;              /* number among them */

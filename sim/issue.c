@@ -89,8 +89,8 @@ static void outlast(sim_issue *s, pipeline *pipe, const sim_op_price *p)
 }
 
 /* Join the op before in V, or issue in a new cycle as early as everything allows. */
-static inline void issue_op(sim_issue *s, pipeline *pipe, sim_result *results, uint32_t window, sim_blamed gap, const sim_op_price *p,
-                            const lrb_event *e)
+static inline void issue_op(sim_issue *s, pipeline *pipe, sim_result *results, uint32_t window, sim_blamed gap,
+                            const sim_op_price *p, const lrb_event *e)
 {
     sim_blamed at = pipe->start;
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)

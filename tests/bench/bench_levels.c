@@ -100,7 +100,8 @@ static void trace_core(bench *b)
     const sim_core_feed feed = {.next = next_tile, .user = &f};
     sim_core *core = NULL;
     base_error err = {0};
-    base_status status = recorder_create(b->kernel, b->job, b->machine, NULL, &f.recorder, &err);
+    const recorder_input input = {.tiles = f.count, .kernel = b->kernel, .job = b->job};
+    base_status status = recorder_create(&input, b->machine, 0, &f.recorder, &err);
     if (status == BASE_OK)
         status = sim_core_create(b->machine, &core, &err);
     if (status == BASE_OK)

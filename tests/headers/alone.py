@@ -22,6 +22,8 @@ FRAGMENTS = {
     "lrbni/host/common/conversions.h": "included by lanes.h below the back end",
     "tests/lrbni/program_memory.h": "a part of program.c",
     "lrbni/host/common/each_lane.h": "the same",
+    "lrbni/host/common/arith.h": "the same",
+    "lrbni/host/common/integer.h": "included by lanes.h below the back end",
     "tests/scene/near.h": "to be included after cmocka.h, as it says",
 }
 

@@ -23,7 +23,8 @@ static void record(const kernel_info *kernel, const scene *s, const sim_machine 
     bvh *tree = trace_tree(s, kernel->defaults.max_leaf);
     assert_int_equal(kernel_job_create(tree, &s->cameras[0], SIZE, SIZE, &kernel->defaults, &job, NULL), BASE_OK);
     assert_int_equal(kernel_job_tiles(job), TILES);
-    assert_int_equal(recorder_create(kernel, job, machine, NULL, &r, NULL), BASE_OK);
+    const recorder_input input = {.tiles = TILES, .kernel = kernel, .job = job};
+    assert_int_equal(recorder_create(&input, machine, 0, &r, NULL), BASE_OK);
     for (size_t i = 0; i < TILES; i++)
         assert_int_equal(recorder_tile(&r, i, &tiles[i], NULL), BASE_OK);
     recorder_destroy(&r);

@@ -59,7 +59,8 @@ static int takes_s3(lrb_shape shape)
 {
     const char *name = lrb_shape_table[shape].name;
     size_t length = strlen(name);
-    return lrb_shape_table[shape].access == LRB_ACCESS_NONE && length > 2 && (name[length - 1] == 'V' || name[length - 2] == 'V');
+    return lrb_shape_table[shape].access == LRB_ACCESS_NONE && length > 2 &&
+           (strchr("VX", name[length - 1]) || strchr("VX", name[length - 2]));
 }
 
 /* A form that the op can have. */

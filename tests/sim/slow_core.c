@@ -7,7 +7,10 @@
 #include "tests/sim/slow_memory.h"
 
 /* The order of reasons that end together; operands are 0 .. RANK_L2-1. */
-enum { RANK_L2 = 1000, RANK_MEMORY, RANK_STORE, RANK_BUSY, RANK_BLOCKED, RANK_DELAY, RANK_MISPREDICT, RANK_BTB, RANK_MISSES, RANK_PREFETCHES };
+enum {
+    RANK_L2 = 1000, RANK_MEMORY, RANK_STORE, RANK_BUSY, RANK_BLOCKED, RANK_DELAY, RANK_MISPREDICT, RANK_BTB, RANK_MISSES,
+    RANK_PREFETCHES
+};
 
 /* A bucket: which number of sim_cycles. */
 #define BUCKET(member) (offsetof(sim_cycles, member) / sizeof(uint64_t))
@@ -117,12 +120,16 @@ static sim_consumer consumer_of(const lrb_event *e, int i)
         return SIM_CONSUMER_ADDRESS;
     if (i == 1 && e->op & LRB_FORM_SWIZZLE && lrb_op_access_of((lrb_op_id)id_of(e)) == LRB_ACCESS_NONE)
         return SIM_CONSUMER_SHUFFLE;
-    return read == 'a' ? SIM_CONSUMER_ADDRESS : read == 'e' ? SIM_CONSUMER_SHUFFLE : read == 'b' ? SIM_CONSUMER_BRANCH : SIM_CONSUMER_PLAIN;
+    return read == 'a'   ? SIM_CONSUMER_ADDRESS
+           : read == 'e' ? SIM_CONSUMER_SHUFFLE
+           : read == 'b' ? SIM_CONSUMER_BRANCH
+                         : SIM_CONSUMER_PLAIN;
 }
 
 static unsigned latency_to(const sim_class_cost *cost, sim_consumer consumer)
 {
-    const unsigned latency[SIM_CONSUMERS] = {cost->latency, cost->latency_to_shuffle, cost->latency_to_branch, cost->latency_to_address};
+    const unsigned latency[SIM_CONSUMERS] = {cost->latency, cost->latency_to_shuffle, cost->latency_to_branch,
+                                             cost->latency_to_address};
     return latency[consumer];
 }
 

@@ -82,6 +82,26 @@ static bool is_marker(const lrb_event *e)
     return info_of(e)->class_id == LRB_CLASS_marker;
 }
 
+/* Whether the lanes of source i go elsewhere, as shapes.def tells with an X: those of a register are source 0, those of S3 source 1. */
+static bool moves_lanes(const lrb_event *e, int i)
+{
+    switch (info_of(e)->shape) {
+    case LRB_SHAPE_V_VII:
+    case LRB_SHAPE_VI_XII:
+        return i == 0;
+    case LRB_SHAPE_V_XI:
+    case LRB_SHAPE_VI_XI:
+    case LRB_SHAPE_V_VX:
+    case LRB_SHAPE_VI_VX:
+        return i == 1;
+    case LRB_SHAPE_VI_XX:
+    case LRB_SHAPE_VI_XXI:
+        return i == 0 || i == 1;
+    default:
+        return false;
+    }
+}
+
 /* How an event reads its source i: event.h says which source is what. */
 static sim_consumer consumer_of(const lrb_event *e, int i)
 {
@@ -89,9 +109,9 @@ static sim_consumer consumer_of(const lrb_event *e, int i)
     if (is_address)
         return SIM_CONSUMER_ADDRESS;
     if ((e->op & LRB_FORM_SWIZZLE && !is_load(e) && i == 1) || (is_vector_store(e) && i == 3) ||
-        (info_of(e)->class_id == LRB_CLASS_vector_permute && i == 0))
+        moves_lanes(e, i))
         return SIM_CONSUMER_SHUFFLE;
-    if (info_of(e)->shape == LRB_SHAPE_B_F && i == 0)
+    if ((info_of(e)->shape == LRB_SHAPE_B_F || info_of(e)->shape == LRB_SHAPE_B_K) && i == 0)
         return SIM_CONSUMER_BRANCH;
     return SIM_CONSUMER_PLAIN;
 }
