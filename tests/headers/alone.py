@@ -19,6 +19,7 @@ FRAGMENTS = {
     "lrbni/host/float_memory.h": "included by each back end below the functions that it calls",
     "lrbni/host/double_memory.h": "the same",
     "tests/library/intrinsic_call.h": "includes a header that the build makes",
+    "tests/library/written_calls.h": "the same",
     "lrbni/host/common/conversions.h": "included by lanes.h below the back end",
     "tests/lrbni/program_memory.h": "a part of program.c",
     "lrbni/host/common/each_lane.h": "the same",
