@@ -238,6 +238,20 @@ def lists__text_and_json__complete(folder):
     assert 'vector_alu.latency' in run('machines', 'larrabee').stdout
 
 
+def ops__machine__its_costs(folder):
+    def rows(*arguments):
+        table = json.loads(run('ops', '--json', *arguments).stdout)
+        names = [column['name'] for column in table['columns']]
+        return {row[0]: dict(zip(names, row)) for row in table['rows']}
+    larrabee, knc = rows(), rows('--machine', 'knc')
+    assert larrabee['load_ps']['pipes'] == 'UV' and knc['load_ps']['pipes'] == 'U'
+    assert larrabee['add_ps'] == dict(larrabee['add_ps'], latency='4', throughput='1', mask='merge', rounding='nearest', chips='L K')
+    assert larrabee['phase']['pipes'] == ''
+    fails(['ops', '--machine', 'pentium'], 'pentium')
+    fails(['ops', '--json', '--markdown'], '--markdown')
+    fails(['ops', 'add_ps'], 'add_ps')
+
+
 def help__every_subcommand__exit_0(folder):
     for name in ('run-kernel', 'report', 'regress', 'replay', 'kernels', 'scenes', 'machines', 'ops'):
         result = run(name, '--help')
