@@ -93,6 +93,12 @@ static bool moves_lanes(const lrb_event *e, int i)
     case LRB_SHAPE_VI_XI:
     case LRB_SHAPE_V_VX:
     case LRB_SHAPE_VI_VX:
+    case LRB_SHAPE_VD_ps: /* and conversions from and to doubles, which read their source as early */
+    case LRB_SHAPE_VD_pi:
+    case LRB_SHAPE_V_pd_I:
+    case LRB_SHAPE_VI_pd_I:
+    case LRB_SHAPE_V_Vpd_I:
+    case LRB_SHAPE_VI_Vpd_I:
         return i == 1;
     case LRB_SHAPE_VI_XX:
     case LRB_SHAPE_VI_XXI:
