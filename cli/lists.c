@@ -1,4 +1,4 @@
-/* lanetrace kernels, scenes, machines, ops: what there is. */
+/* lanetrace kernels, scenes, machines: what there is. */
 #include <stdio.h>
 #include <string.h>
 
@@ -173,26 +173,4 @@ int command_machines(int argc, char **argv)
         return command_fail(&err);
     report_table *t = a.name ? machine_table(a.name, &err) : machines_table(&err);
     return t ? write_list(t, a.json, &err) : command_fail(&err);
-}
-
-int command_ops(int argc, char **argv)
-{
-    base_error err = {0};
-    list_arguments a = {.err = &err};
-    if (parse_list(argc, argv, NULL, "The ops of the vector ISA: lrbni/ops.def.", &a) != BASE_OK)
-        return command_fail(&err);
-    report_table *t = report_table_create("Ops");
-    add_columns(t, (const char *const[]){"op", "instruction", "shape", "class", "lane i", "chips", "source", NULL});
-    for (int i = 0; i < LRB_OP_COUNT; i++) {
-        const lrb_op_info *op = &lrb_op_table[i];
-        report_table_begin_row(t);
-        report_table_add_text(t, op->id);
-        report_table_add_text(t, op->mnemonic);
-        report_table_add_text(t, lrb_shape_table[op->shape].name);
-        report_table_add_text(t, lrb_cost_classes[op->class_id].name);
-        report_table_add_text(t, op->formula);
-        report_table_add_text(t, lrb_chips_names[op->chips]);
-        report_table_add_text(t, op->source);
-    }
-    return write_list(t, a.json, &err);
 }

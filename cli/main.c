@@ -16,7 +16,7 @@ static const struct subcommand {
     {"kernels", "[--json]", "the kernels there are", command_kernels},
     {"scenes", "[--json]", "the built-in scenes there are", command_scenes},
     {"machines", "[NAME] [--json]", "the machine descriptions there are, and their numbers", command_machines},
-    {"ops", "[--json]", "the ops of the vector ISA", command_ops},
+    {"ops", "[--machine M] [--json]", "the ops of the vector ISA, and what they cost", command_ops},
 };
 enum { SUBCOMMANDS = sizeof subcommands / sizeof *subcommands };
 

@@ -287,18 +287,9 @@ double run_pixel_count(const run_result *result, kernel_counter counter, unsigne
     return (double)result->tile_counts[p.tile].n[counter] / tile_pixels(result->job, p.tile);
 }
 
-run_op_totals run_totals(const run_result *result)
+report_op_totals run_totals(const run_result *result)
 {
-    run_op_totals t = {.memory = result->memory_operands};
-    for (int i = 0; i < LRB_OP_COUNT; i++) {
-        lrb_op_kind kind = lrb_op_kind_of((lrb_op_id)i);
-        if (kind == LRB_KIND_MARKER)
-            continue;
-        t.total += result->ops[i];
-        *(kind == LRB_KIND_VECTOR ? &t.vector : &t.scalar) += result->ops[i];
-        t.memory += lrb_op_is_memory((lrb_op_id)i) ? result->ops[i] : 0;
-    }
-    if (t.vector)
-        t.lane_utilisation = 1.0 - (double)result->idle_lanes / (16.0 * (double)t.vector);
-    return t;
+    const report_accounts a = {.machine = result->machine, .ops = result->ops, .memory_operands = result->memory_operands,
+                               .idle_lanes = result->idle_lanes};
+    return report_accounts_totals(&a);
 }

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "kernels/kernel.h"
+#include "reports/accounts.h"
 #include "scene/scene.h"
 #include "sim/bounds.h"
 #include "sim/core.h"
@@ -79,11 +80,6 @@ double run_pixel_cycles(const run_result *result, unsigned x, unsigned y);
 double run_pixel_count(const run_result *result, kernel_counter counter, unsigned x, unsigned y);
 
 /** Totals over the ops of a run. */
-typedef struct run_op_totals {
-    uint64_t total, vector, scalar, memory;
-    double lane_utilisation; /* active lanes of vector ops / 16 per vector op */
-} run_op_totals;
-
-run_op_totals run_totals(const run_result *result);
+report_op_totals run_totals(const run_result *result);
 
 #endif

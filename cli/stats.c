@@ -1,43 +1,29 @@
 #include "cli/stats.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
 
 #include "cli/identity.h"
 #include "cli/version.h"
+#include "reports/accounts.h"
 
 /* Decimals that reals keep in JSON. */
 enum { RATIO_DECIMALS = 6, SECONDS_DECIMALS = 6 };
 
-static json_t *hash_json(uint64_t hash)
-{
-    char text[20];
-    snprintf(text, sizeof text, "%016" PRIx64, hash);
-    return json_string(text);
-}
-
 static json_t *integer(uint64_t value) { return json_integer((json_int_t)value); }
+
+/* The part of the statistics that does not know what was run. */
+static report_accounts accounts_of(const run_result *r)
+{
+    return (report_accounts){.machine = r->machine, .ops = r->ops, .memory_operands = r->memory_operands, .idle_lanes = r->idle_lanes,
+                             .cycles = r->cycles};
+}
 
 static json_t *ops_json(const run_result *r)
 {
-    run_op_totals t = run_totals(r);
-    json_t *object = json_object(), *by_op = json_object();
-    json_object_set_new(object, "total", integer(t.total));
-    json_object_set_new(object, "vector", integer(t.vector));
-    json_object_set_new(object, "scalar", integer(t.scalar));
-    json_object_set_new(object, "memory", integer(t.memory));
-    json_object_set_new(object, "lane_utilisation", report_json_real(t.lane_utilisation, RATIO_DECIMALS));
-    for (int i = 0; i < LRB_OP_COUNT; i++) {
-        const char *mnemonic = lrb_op_table[i].mnemonic;
-        if (!r->ops[i] || lrb_op_kind_of((lrb_op_id)i) == LRB_KIND_MARKER)
-            continue;
-        json_int_t before = json_integer_value(json_object_get(by_op, mnemonic)); /* two rows may share a mnemonic */
-        json_object_set_new(by_op, mnemonic, json_integer(before + (json_int_t)r->ops[i]));
-    }
-    json_object_set_new(object, "by_op", by_op);
-    return object;
+    const report_accounts a = accounts_of(r);
+    return report_ops_json(&a);
 }
 
 static json_t *phases_json(const run_result *r)
@@ -268,12 +254,8 @@ json_t *stats_json(const run_result *r, double load_seconds, int with_host)
     json_object_set(stats, "kernel", json_object_get(run, "kernel"));
     json_object_set(stats, "params", json_object_get(run, "params"));
     json_object_set_new(stats, "model", json_string(run_model_names[r->options.model]));
-    if (accounted) {
-        json_t *machine = json_object();
-        json_object_set_new(machine, "name", json_string(r->machine->name));
-        json_object_set_new(machine, "hash", hash_json(sim_machine_hash(r->machine)));
-        json_object_set_new(stats, "machine", machine);
-    }
+    if (accounted)
+        json_object_set_new(stats, "machine", report_machine_json(r->machine));
     json_object_set(stats, "scene", json_object_get(run, "scene"));
     json_object_set(stats, "image", json_object_get(run, "image"));
     json_object_set_new(stats, "counts", identity_counts_json(r));
@@ -312,7 +294,7 @@ static void add_counts(report_table *t, const run_result *r)
 
 static void add_ops(report_table *t, const run_result *r)
 {
-    run_op_totals totals = run_totals(r);
+    report_op_totals totals = run_totals(r);
     report_table_begin_group(t, "ops");
     add_row(t, r, "total", totals.total);
     add_row(t, r, "vector", totals.vector);

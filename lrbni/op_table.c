@@ -19,6 +19,12 @@ const lrb_shape_info lrb_shape_table[LRB_SHAPE_COUNT] = {
 
 const char *const lrb_chips_names[LRB_CHIPS_COUNT] = {"", "L", "K", "L K", "library"};
 
+const char *const lrb_mask_names[LRB_MASK_COUNT] = {
+    [LRB_MASK_NONE] = "", [LRB_MASK_MERGE] = "merge", [LRB_MASK_ZERO] = "zero", [LRB_MASK_SELECT] = "select"};
+
+const char *const lrb_round_names[LRB_ROUND_COUNT] = {
+    [LRB_ROUND_EXACT] = "exact", [LRB_ROUND_RNE] = "nearest", [LRB_ROUND_MODE] = "mode", [LRB_ROUND_ASSUMED] = "assumed"};
+
 lrb_op_kind lrb_op_kind_of(lrb_op_id id)
 {
     switch (lrb_op_table[id].class_id) {

@@ -19,8 +19,8 @@ typedef enum lrb_shape {
     LRB_SHAPE_COUNT
 } lrb_shape;
 
-typedef enum lrb_mask_rule { LRB_MASK_NONE, LRB_MASK_MERGE, LRB_MASK_ZERO, LRB_MASK_SELECT } lrb_mask_rule;
-typedef enum lrb_round_rule { LRB_ROUND_EXACT, LRB_ROUND_RNE, LRB_ROUND_MODE, LRB_ROUND_ASSUMED } lrb_round_rule;
+typedef enum lrb_mask_rule { LRB_MASK_NONE, LRB_MASK_MERGE, LRB_MASK_ZERO, LRB_MASK_SELECT, LRB_MASK_COUNT } lrb_mask_rule;
+typedef enum lrb_round_rule { LRB_ROUND_EXACT, LRB_ROUND_RNE, LRB_ROUND_MODE, LRB_ROUND_ASSUMED, LRB_ROUND_COUNT } lrb_round_rule;
 
 /* Which chips have an op: the original Larrabee, Knights Corner, both, or only the published intrinsics. */
 typedef enum lrb_chips { LRB_CHIPS_NONE, LRB_CHIPS_L, LRB_CHIPS_K, LRB_CHIPS_LK, LRB_CHIPS_LIB, LRB_CHIPS_COUNT } lrb_chips;
@@ -71,6 +71,10 @@ extern const lrb_shape_info lrb_shape_table[LRB_SHAPE_COUNT];
 
 /** "L", "K", "L K", "library", "". */
 extern const char *const lrb_chips_names[LRB_CHIPS_COUNT];
+
+/** "merge", "zero", "select", ""; "exact", "nearest", "mode", "assumed". */
+extern const char *const lrb_mask_names[LRB_MASK_COUNT];
+extern const char *const lrb_round_names[LRB_ROUND_COUNT];
 
 /* What kind of work an op is, for the totals in statistics ("ops": vector, scalar, memory). */
 typedef enum lrb_op_kind { LRB_KIND_MARKER, LRB_KIND_VECTOR, LRB_KIND_MASK, LRB_KIND_SCALAR, LRB_KIND_BRANCH } lrb_op_kind;
