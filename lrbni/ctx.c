@@ -38,6 +38,7 @@ void lrb_ctx_destroy(lrb_ctx **c)
 void lrb_ctx_begin(lrb_ctx *c)
 {
     c->next_event = LRB_FAR;
+    c->line = 0;
     c->free_event = c->events;
 }
 

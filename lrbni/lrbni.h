@@ -8,4 +8,8 @@
 #include "lrbni/ops/load_store.h"
 #include "lrbni/ops/scalar.h"
 
+#ifdef LRB_LINES
+#include "lrbni/lines.h"
+#endif
+
 #endif

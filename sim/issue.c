@@ -341,7 +341,7 @@ static void mark(sim_issue *s, const lrb_event *e)
 {
     if ((e->op & LRB_EVENT_ID) == LRB_OP_phase)
         end_phase(s, e->aux);
-    else
+    else if ((e->op & LRB_EVENT_ID) == LRB_OP_region)
         end_region(s, e->aux);
 }
 

@@ -160,7 +160,9 @@ LRB_INLINE bool lrb_jump_if_below(lrb_ctx *c, uint32_t site, lrb_flags f) { retu
 LRB_INLINE bool lrb_jump_if_less(lrb_ctx *c, uint32_t site, lrb_flags f) { return lrb_jump_if(c, site, f, f.less); }
 
 /** An unconditional jump. */
-#define lrb_jmp(c) ((void)lrb_emit(c, LRB_OP_jmp, 0, 1, 0, 0, 0, 0, LRB_SITE))
+#define lrb_jmp(c) lrb_jump(c, LRB_SITE)
+
+LRB_INLINE void lrb_jump(lrb_ctx *c, uint32_t site) { lrb_emit(c, LRB_OP_jmp, 0, 1, 0, 0, 0, 0, site); }
 
 /* Markers: no instruction, no cycle; they tell the models where the stream is. Only LRB_RECORD has them. */
 /** What follows belongs to that phase of the kernel (a number of the kernel's own list of phases). */

@@ -5,6 +5,11 @@
 
 #define PASTE(a, b) a##b
 #define AT_LEVEL(name, level) PASTE(name, level)
+#ifdef LRB_LINES
+#define LEVEL lines
+#else
+#define LEVEL LRB_LEVEL
+#endif
 
 /* Lanes nearer than the nearest so far, and what they are worth. */
 static lrb_v16f weigh(lrb_ctx *c, lrb_v16f v, lrb_v16f nearest, lrb_ptr p, lrb_k16 *closer)
@@ -39,7 +44,7 @@ static lrb_v16i scramble(lrb_ctx *c, lrb_v16f v, lrb_ptr p, lrb_k16 k)
     return lrb_mask_mov_pi(c, i, k, m);
 }
 
-void AT_LEVEL(level_kernel_, LRB_LEVEL)(lrb_ctx *c, lrb_segment data)
+void AT_LEVEL(level_kernel_, LEVEL)(lrb_ctx *c, lrb_segment data)
 {
     lrb_ptr out = lrb_segment_at(c->scratch, 0), base = lrb_segment_at(data, 0);
     lrb_r64 left = lrb_mov(c, lrb_imm(LEVEL_VECTORS)), sum = lrb_imm(0), at = lrb_imm(0);

@@ -198,7 +198,7 @@ static void pass_markers(slow_tile *t)
         t->stats->ops[e->op & LRB_EVENT_ID]++;
         if ((e->op & LRB_EVENT_ID) == LRB_OP_phase)
             t->phase = e->aux < SIM_MAX_PHASES ? e->aux : SIM_MAX_PHASES - 1;
-        else
+        else if ((e->op & LRB_EVENT_ID) == LRB_OP_region)
             t->region = e->aux < SIM_MAX_REGIONS ? e->aux : SIM_MAX_REGIONS;
     }
 }

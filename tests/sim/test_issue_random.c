@@ -133,7 +133,7 @@ static void assert_sums(const sim_issue_stats *s, uint64_t events)
     assert_int_equal(s->cycles, sum(s->phase, SIM_MAX_PHASES));
     assert_int_equal(issues, sum(s->issued_by_class, LRB_CLASS_COUNT));
     assert_int_equal(events, sum(s->ops, LRB_OP_COUNT));
-    assert_int_equal(events, issues + s->issued_pair + s->ops[LRB_OP_phase] + s->ops[LRB_OP_region]);
+    assert_int_equal(events, issues + s->issued_pair + s->ops[LRB_OP_phase] + s->ops[LRB_OP_region] + s->ops[LRB_OP_line]);
 }
 
 /* What the ops of one class cost in `count` bounds a tile's cycles from below, but for the last op, and two ops a cycle
@@ -147,7 +147,7 @@ static void assert_bounds(const sim_machine *machine, const sim_issue_stats *s)
         if (sum(ops, LRB_OP_COUNT) && c != LRB_CLASS_marker)
             assert_true(2 * s->cycles + machine->cost[c].throughput > sim_count_half_cycles(machine, ops));
     }
-    assert_true(2 * s->cycles >= sum(s->ops, LRB_OP_COUNT) - s->ops[LRB_OP_phase] - s->ops[LRB_OP_region]);
+    assert_true(2 * s->cycles >= sum(s->ops, LRB_OP_COUNT) - s->ops[LRB_OP_phase] - s->ops[LRB_OP_region] - s->ops[LRB_OP_line]);
 }
 
 /* A few tiles on one machine; returns the number of events. */

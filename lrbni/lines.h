@@ -1,0 +1,23 @@
+/* Lines of the kernel's source in the stream: kernels that are compiled at LRB_RECORD with LRB_LINES defined put a marker
+ * before every op that is not written in the line of the one before it. Nothing else of the stream changes.
+ *
+ * Each op becomes a macro of its own name, which names the line to a function around the op. A call of an op stands on one
+ * line of the source: which line a compiler takes for a call over several is its own affair.
+ */
+#ifndef LRBNI_LINES_H
+#define LRBNI_LINES_H
+
+#include "lrbni/ops/scalar.h"
+
+/* What follows is written in that source and line (LRB_SITE). */
+LRB_INLINE void lrb_at_line(lrb_ctx *c, uint32_t site)
+{
+    if (c->line != site) {
+        c->line = site;
+        lrb_mark(c, LRB_OP_line, site);
+    }
+}
+
+#include "lrbni/op_lines.h" /* made by lrbni/op_lines.py */
+
+#endif
