@@ -23,7 +23,7 @@ typedef struct kernel_info {
     kernel_params defaults;
     uint64_t counters;         /* bit i: counter i is reported */
     kernel_tile_fn *tile[LRB_LEVELS]; /* by level */
-    kernel_tile_fn *lines;     /* LRB_RECORD, with the lines of the source in the stream */
+    kernel_tile_fn *annotated; /* LRB_RECORD, with more markers (lrbni/annotate.h) */
 } kernel_info;
 
 /** All kernels; *count entries. */
@@ -53,8 +53,8 @@ enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, 
 #define KERNEL_TILE_FN(name) name##_native
 #elif defined(LRB_LEVEL) && LRB_LEVEL == 1
 #define KERNEL_TILE_FN(name) name##_count
-#elif defined(LRB_LINES)
-#define KERNEL_TILE_FN(name) name##_lines
+#elif defined(LRB_ANNOTATED)
+#define KERNEL_TILE_FN(name) name##_annotated
 #elif defined(LRB_LEVEL) && LRB_LEVEL == 2
 #define KERNEL_TILE_FN(name) name##_record
 #endif

@@ -4,8 +4,8 @@
 
 const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection"};
 
-/* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count, mft_primary_record and mft_primary_lines */
-#define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record, name##_lines
+/* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count, mft_primary_record and mft_primary_annotated */
+#define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record, name##_annotated
 KERNEL_TILES(packet16_primary);
 KERNEL_TILES(mft_primary);
 #undef KERNEL_TILES
@@ -27,7 +27,7 @@ const kernel_info *kernel_list(size_t *count)
             .defaults = {.cull_backface = 0, .max_leaf = 2, .bins = 16},
             .counters = tracing_counters | BIT(units_packets),
             .tile = {packet16_primary_native, packet16_primary_count, packet16_primary_record},
-            .lines = packet16_primary_lines,
+            .annotated = packet16_primary_annotated,
         },
         {
             .name = "mft-primary",
@@ -36,7 +36,7 @@ const kernel_info *kernel_list(size_t *count)
             .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16},
             .counters = tracing_counters | BIT(units_groups) | BIT(units_frusta),
             .tile = {mft_primary_native, mft_primary_count, mft_primary_record},
-            .lines = mft_primary_lines,
+            .annotated = mft_primary_annotated,
         },
     };
     *count = sizeof kernels / sizeof *kernels;

@@ -8,8 +8,8 @@
 #include "lrbni/ops/load_store.h"
 #include "lrbni/ops/scalar.h"
 
-#ifdef LRB_LINES
-#include "lrbni/lines.h"
+#ifdef LRB_ANNOTATED
+#include "lrbni/annotate.h"
 #endif
 
 #endif

@@ -41,7 +41,7 @@ def main(out, depfile, root, *compiler):
     text = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
     ops = list(ops_of(text))
     with open(out, 'w', encoding='ascii') as file:
-        file.write('/* Made by lrbni/op_lines.py; included by lrbni/lines.h, behind the ops. */\n')
+        file.write('/* Made by lrbni/op_lines.py; included by lrbni/annotate.h, behind the ops. */\n')
         for op in ops:
             write_op(file, *op)
 

@@ -23,6 +23,20 @@ LRB_INLINE void lrb_put(lrb_ctx *c, lrb_event *e)
     if (__builtin_expect(e + 1 == c->events_end, 0))
         lrb_ctx_flush(c);
 }
+
+/* A source that is too far back for the event of the next op has a marker of its own. */
+LRB_INLINE void lrb_mark_far(lrb_ctx *c, uint16_t source, uint32_t from)
+{
+#ifdef LRB_ANNOTATED
+    if (from && c->next_event - from >= LRB_FAR) {
+        lrb_event *e = c->free_event;
+        *e = (lrb_event){.op = LRB_OP_far, .mask = source, .aux = c->next_event - from};
+        lrb_put(c, e);
+    }
+#else
+    (void)c, (void)source, (void)from;
+#endif
+}
 #endif
 
 /* Tell the context of one op and return the event's id; sources are the ids of the events that made them. */
@@ -30,6 +44,7 @@ LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t ma
                              uint32_t s3, uint32_t aux)
 {
 #if LRB_LEVEL == LRB_RECORD
+    lrb_mark_far(c, 0, s0), lrb_mark_far(c, 1, s1), lrb_mark_far(c, 2, s2), lrb_mark_far(c, 3, s3);
     lrb_event *e = c->free_event;
     uint32_t id = c->next_event;
     *e = (lrb_event){.op = (uint16_t)(op | form), .mask = (uint16_t)mask, .aux = aux,

@@ -5,8 +5,8 @@
 
 #define PASTE(a, b) a##b
 #define AT_LEVEL(name, level) PASTE(name, level)
-#ifdef LRB_LINES
-#define LEVEL lines
+#ifdef LRB_ANNOTATED
+#define LEVEL annotated
 #else
 #define LEVEL LRB_LEVEL
 #endif

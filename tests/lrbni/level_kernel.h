@@ -10,6 +10,6 @@ enum { LEVEL_VECTORS = 256, LEVEL_BYTES = 64 * LEVEL_VECTORS };
    ops.def. */
 typedef void level_kernel_fn(lrb_ctx *c, lrb_segment data);
 level_kernel_fn level_kernel_0, level_kernel_1, level_kernel_2;
-level_kernel_fn level_kernel_lines; /* LRB_RECORD with LRB_LINES */
+level_kernel_fn level_kernel_annotated; /* LRB_RECORD with LRB_ANNOTATED */
 
 #endif

@@ -1,4 +1,4 @@
-/* Kernels compiled with the lines of their sources in the stream: the same stream but for the markers, which point at ops. */
+/* Annotated kernels: the same stream but for the markers, which point at the lines of ops, and at what made their sources. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -59,10 +59,16 @@ static void check_line(uint32_t site, unsigned id)
             fail_msg("%s:%u has no %s: %.*s", source->path, site & 0xffff, lrb_op_table[id].id, (int)line.length, line.text);
 }
 
-/* The streams of a tile, side by side; returns the number of markers. */
-static size_t compare(const stream *plain, const stream *lines)
+/* A marker of a far source: too far, and not as far as the tile's beginning. */
+static void check_far(const lrb_event *e, size_t ops)
 {
-    size_t markers = 0, at = 0;
+    assert_true(e->mask < 4 && e->aux >= LRB_FAR && e->aux <= ops);
+}
+
+/* The streams of a tile, side by side; returns the number of lines' markers. */
+static size_t compare(const stream *plain, const stream *lines, size_t *far)
+{
+    size_t markers = 0, at = 0, ops = 0;
     uint32_t site = 0;
     for (size_t i = 0; i < lines->count; i++) {
         const lrb_event *e = &lines->events[i];
@@ -72,19 +78,26 @@ static size_t compare(const stream *plain, const stream *lines)
             markers++;
             continue;
         }
+        if ((e->op & LRB_EVENT_ID) == LRB_OP_far) {
+            check_far(e, ops);
+            ++*far;
+            continue;
+        }
         assert_true(at < plain->count);
         assert_memory_equal(e, &plain->events[at], sizeof *e);
         at++;
-        if (lrb_op_kind_of((lrb_op_id)(e->op & LRB_EVENT_ID)) != LRB_KIND_MARKER)
-            check_line(site, e->op & LRB_EVENT_ID);
+        if (lrb_op_kind_of((lrb_op_id)(e->op & LRB_EVENT_ID)) == LRB_KIND_MARKER)
+            continue;
+        ops++;
+        check_line(site, e->op & LRB_EVENT_ID);
     }
     assert_int_equal(at, plain->count);
     return markers;
 }
 
-static void lines__every_kernel_and_scene__the_stream_of_record_and_markers(void **state)
+static void annotated__every_kernel_and_scene__the_stream_of_record_and_markers(void **state)
 {
-    size_t kernels, scenes;
+    size_t kernels, scenes, far = 0;
     const kernel_info *kernel = kernel_list(&kernels);
     const scene_builtin *builtin = scene_builtin_list(&scenes);
     (void)state;
@@ -98,8 +111,8 @@ static void lines__every_kernel_and_scene__the_stream_of_record_and_markers(void
             kernel_job *job = NULL;
             assert_int_equal(kernel_job_create(tree, &s->cameras[0], SIZE, SIZE, &kernel[k].defaults, &job, NULL), BASE_OK);
             for (uint32_t tile = 0; tile < kernel_job_tiles(job); tile++) {
-                stream plain = record(kernel[k].tile[LRB_RECORD], job, tile), lines = record(kernel[k].lines, job, tile);
-                size_t markers = compare(&plain, &lines);
+                stream plain = record(kernel[k].tile[LRB_RECORD], job, tile), lines = record(kernel[k].annotated, job, tile);
+                size_t markers = compare(&plain, &lines, &far);
                 assert_true(markers > plain.count / 10);
                 free(plain.events);
                 free(lines.events);
@@ -109,6 +122,7 @@ static void lines__every_kernel_and_scene__the_stream_of_record_and_markers(void
         }
         scene_destroy(&s);
     }
+    assert_true(far > 0); /* the longest tiles have some */
 }
 
 static void sources__lines_and_functions__found(void **state)
@@ -147,9 +161,9 @@ static void sources__every_number__one_file(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines__every_kernel_and_scene__the_stream_of_record_and_markers),
+        cmocka_unit_test(annotated__every_kernel_and_scene__the_stream_of_record_and_markers),
         cmocka_unit_test(sources__lines_and_functions__found),
         cmocka_unit_test(sources__every_number__one_file),
     };
-    return cmocka_run_group_tests_name("lines", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("annotated", tests, NULL, NULL);
 }
