@@ -45,7 +45,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp argp = {
     option_table, parse, "[SUITE...]",
     "Measure the suites (all, if none is named) and compare every count, op and cycle with the stored baseline.\v"
-    "Exit code 1 if anything differs. Suites: mft-primary: both kernels on the built-in scenes at 256x256, on both machines.",
+    "Exit code 1 if anything differs. Suites: mft-primary: both kernels on the built-in scenes at 256x256, on larrabee and knc.",
     NULL, NULL, NULL,
 };
 
@@ -69,16 +69,16 @@ static base_status measure(json_t *runs, const scene *s, const kernel_info *kern
 
 static base_status measure_scene(json_t *runs, const scene *s, unsigned jobs, base_error *err)
 {
+    static const struct {
+        const char *machine;
+        run_model model;
+    } ways[] = {{"larrabee", RUN_COUNT}, {"larrabee", RUN_ISSUE}, {"knc", RUN_ISSUE}, {"larrabee", RUN_CORE}, {"knc", RUN_CORE}};
     size_t kernels;
     const kernel_info *kernel = kernel_list(&kernels);
     base_status status = BASE_OK;
-    for (size_t k = 0; status == BASE_OK && k < kernels; k++) {
-        status = measure(runs, s, &kernel[k], "larrabee", RUN_COUNT, jobs, err);
-        if (status == BASE_OK)
-            status = measure(runs, s, &kernel[k], "larrabee", RUN_ISSUE, jobs, err);
-        if (status == BASE_OK)
-            status = measure(runs, s, &kernel[k], "knc", RUN_ISSUE, jobs, err);
-    }
+    for (size_t k = 0; k < kernels; k++)
+        for (size_t w = 0; status == BASE_OK && w < sizeof ways / sizeof *ways; w++)
+            status = measure(runs, s, &kernel[k], ways[w].machine, ways[w].model, jobs, err);
     return status;
 }
 

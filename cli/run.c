@@ -6,10 +6,11 @@
 
 #include "cli/clock.h"
 #include "cli/progress.h"
+#include "cli/run_core.h"
 #include "lrbni/base/parallel.h"
 #include "sim/count.h"
 
-const char *const run_model_names[RUN_MODELS] = {"native", "count", "issue"};
+const char *const run_model_names[RUN_MODELS] = {"native", "count", "issue", "core"};
 
 base_status run_model_find(const char *name, run_model *out, base_error *err)
 {
@@ -18,9 +19,7 @@ base_status run_model_find(const char *name, run_model *out, base_error *err)
             *out = (run_model)i;
             return BASE_OK;
         }
-    if (strcmp(name, "core") == 0)
-        return base_fail(err, BASE_ERR_UNSUPPORTED, "--model", "'core' is not in this version (there are native, count, issue)");
-    return base_fail(err, BASE_ERR_USAGE, "--model", "no model '%s' (there are native, count, issue)", name);
+    return base_fail(err, BASE_ERR_USAGE, "--model", "no model '%s' (there are native, count, issue, core)", name);
 }
 
 /* What one host thread works with; its sums are added up at the end, and integers add up in any order. */
@@ -64,6 +63,7 @@ static void trace_tile(void *user, size_t tile, unsigned worker_index)
         cycles[SIM_MAX_REGIONS] = count_tile_cycles(r, w->ctx, ops_before);
         break;
     case RUN_ISSUE:
+    case RUN_CORE: /* run_core does that */
     case RUN_MODELS:
         sim_issue_begin(w->issue);
         levels[LRB_RECORD](w->ctx, result->job, (uint32_t)tile, &counts);
@@ -130,30 +130,37 @@ static void destroy_workers(run_state *r, unsigned jobs)
     free(r->workers);
 }
 
+/* Trace the tiles one by one: all models but core. */
+static base_status trace_tiles(run_result *result, progress *bar, base_error *err)
+{
+    const unsigned jobs = result->options.jobs;
+    run_state r = {.result = result, .progress = bar};
+    base_status status = create_workers(&r, jobs, err);
+    if (status == BASE_OK) {
+        base_parallel_for(jobs, kernel_job_tiles(result->job), trace_tile, &r);
+        for (unsigned i = 0; i < jobs; i++)
+            collect_worker(result, &r.workers[i]);
+        finish_cycles(result);
+    }
+    destroy_workers(&r, jobs);
+    return status;
+}
+
 static base_status trace(run_result *result, base_error *err)
 {
     const run_options *o = &result->options;
     size_t tiles = kernel_job_tiles(result->job);
-    run_state r = {.result = result};
     if (o->model != RUN_NATIVE)
         result->region_cycles = calloc(tiles * (SIM_MAX_REGIONS + 1), sizeof *result->region_cycles);
     if (o->keep_tile_counts)
         result->tile_counts = calloc(tiles, sizeof *result->tile_counts);
     if ((o->model != RUN_NATIVE && !result->region_cycles) || (o->keep_tile_counts && !result->tile_counts))
         return base_fail(err, BASE_ERR_NOMEM, "--size", "out of memory for %ux%u pixels", o->width, o->height);
-    base_status status = create_workers(&r, o->jobs, err);
-    if (status == BASE_OK) {
-        progress bar = progress_begin(o->kernel->name, tiles, o->progress);
-        r.progress = &bar;
-        double start = clock_seconds();
-        base_parallel_for(o->jobs, tiles, trace_tile, &r);
-        result->kernel_seconds = clock_seconds() - start;
-        progress_end(&bar);
-        for (unsigned i = 0; i < o->jobs; i++)
-            collect_worker(result, &r.workers[i]);
-        finish_cycles(result);
-    }
-    destroy_workers(&r, o->jobs);
+    progress bar = progress_begin(o->kernel->name, tiles, o->progress);
+    double start = clock_seconds();
+    base_status status = o->model == RUN_CORE ? run_core(result, &bar, err) : trace_tiles(result, &bar, err);
+    result->kernel_seconds = clock_seconds() - start;
+    progress_end(&bar);
     return status;
 }
 

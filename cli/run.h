@@ -7,13 +7,14 @@
 
 #include "kernels/kernel.h"
 #include "scene/scene.h"
+#include "sim/core.h"
 #include "sim/issue.h"
 #include "sim/machine.h"
 
 /* How much of the machine is modelled; each a stated simplification of the next (docs/machine-model.md). */
-typedef enum run_model { RUN_NATIVE, RUN_COUNT, RUN_ISSUE, RUN_MODELS } run_model;
+typedef enum run_model { RUN_NATIVE, RUN_COUNT, RUN_ISSUE, RUN_CORE, RUN_MODELS } run_model;
 
-/** "native", "count", "issue". */
+/** "native", "count", "issue", "core". */
 extern const char *const run_model_names[RUN_MODELS];
 
 /** The model of that name. Errors: BASE_ERR_USAGE, with the names there are. */
@@ -39,11 +40,12 @@ typedef struct run_result {
     bvh *tree;
     kernel_job *job; /* with the frame: nearest hits by pixel */
     kernel_counts counts;
-    uint64_t ops[LRB_OP_COUNT]; /* RUN_COUNT and RUN_ISSUE */
+    uint64_t ops[LRB_OP_COUNT]; /* all models but RUN_NATIVE */
     uint64_t memory_operands, idle_lanes;
     sim_issue_stats issue; /* RUN_ISSUE */
-    uint64_t cycles;       /* RUN_COUNT and RUN_ISSUE */
-    double *region_cycles; /* RUN_COUNT, RUN_ISSUE: by tile, SIM_MAX_REGIONS + 1 each: blocks, then the whole tile */
+    sim_core_stats core;   /* RUN_CORE: summed over the simulated cores */
+    uint64_t cycles;       /* all models but RUN_NATIVE; RUN_CORE: of the slowest core */
+    double *region_cycles; /* all models but RUN_NATIVE: by tile, SIM_MAX_REGIONS + 1 each: blocks, then the whole tile */
     kernel_counts *tile_counts; /* by tile, or NULL */
     double build_seconds, kernel_seconds;
 } run_result;
@@ -61,7 +63,7 @@ base_status run_kernel(const scene *s, const sim_machine *machine, const run_opt
 /** Free what a result owns. */
 void run_result_destroy(run_result *result);
 
-/** Simulated cycles of image pixel (x, y): its share of its block's and its tile's. RUN_COUNT and RUN_ISSUE. */
+/** Simulated cycles of image pixel (x, y): its share of its block's and its tile's. All models but RUN_NATIVE. */
 double run_pixel_cycles(const run_result *result, unsigned x, unsigned y);
 
 /** A counter's value for pixel (x, y): its tile's, divided by the pixels of the tile. Needs keep_tile_counts. */

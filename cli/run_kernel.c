@@ -22,7 +22,7 @@ static const struct argp_option option_table[] = {
     {"size", KEY_SIZE, "WxH", 0, "image size in pixels; default 1024x1024", 1},
     {"light-scale", KEY_LIGHT_SCALE, "F", 0, "scale the light's edges about its centre; default 1", 1},
     {"samples", KEY_SAMPLES, "N", 0, "shadow rays per pixel of soft-shadow kernels (none in this version); default 16", 1},
-    {"model", KEY_MODEL, "M", 0, "native, count or issue: how much of the machine is modelled; default issue (core is not in this version)", 2},
+    {"model", KEY_MODEL, "M", 0, "native, count, issue or core: how much of the machine is modelled; default core", 2},
     {"machine", KEY_MACHINE, "M", 0, "a machine (see lanetrace machines), or a description's path; default larrabee", 2},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a field of the machine; repeatable", 2},
     {"param", KEY_PARAM, "KEY=VALUE", 0, "override a parameter of the kernel; repeatable", 2},
@@ -137,7 +137,7 @@ static base_status plan_heat_map(const arguments *a, plan *p, base_error *err)
     if (a->heatmap_of && !a->heatmap)
         return base_fail(err, BASE_ERR_USAGE, "--heatmap-of", "needs --heatmap FILE");
     if (a->heatmap && !a->heatmap_of && p->run.model == RUN_NATIVE)
-        return base_fail(err, BASE_ERR_USAGE, "--heatmap", "model native simulates no cycles (take count or issue, or --heatmap-of COUNTER)");
+        return base_fail(err, BASE_ERR_USAGE, "--heatmap", "model native simulates no cycles (take count, issue or core, or --heatmap-of COUNTER)");
     p->run.keep_tile_counts = a->heatmap_of != NULL;
     return a->heatmap_of ? find_counter(p->run.kernel, a->heatmap_of, &p->heat_counter, err) : BASE_OK;
 }
@@ -173,7 +173,7 @@ static base_status make_plan(const arguments *a, plan *p, base_error *err)
         status = kernel_params_set(&p->run.params, a->params.items[i], err);
     if (status == BASE_OK)
         status = plan_numbers(a, p, err);
-    p->run.model = RUN_ISSUE;
+    p->run.model = RUN_CORE;
     if (status == BASE_OK && a->model)
         status = run_model_find(a->model, &p->run.model, err);
     if (status == BASE_OK)

@@ -89,19 +89,24 @@ static json_t *ops_json(const run_result *r)
 
 static json_t *phases_json(const run_result *r)
 {
+    const uint64_t *phase = r->options.model == RUN_CORE ? r->core.phase : r->issue.phase;
     json_t *object = json_object();
     for (int i = 0; i < KERNEL_PHASE_COUNT; i++)
-        json_object_set_new(object, kernel_phase_names[i], integer(r->issue.phase[i]));
+        json_object_set_new(object, kernel_phase_names[i], integer(phase[i]));
     return object;
 }
 
-/* Cycles waited for results of one class, however they were to be read. */
-static uint64_t operand_wait(const sim_issue_stats *s, int class_id)
+/* Where the cycles of the run went. */
+static sim_cycles cycles_of(const run_result *r)
 {
-    uint64_t sum = 0;
-    for (int kind = 0; kind < SIM_CONSUMERS; kind++)
-        sum += s->operand[class_id][kind];
-    return sum;
+    const sim_issue_stats *s = &r->issue;
+    if (r->options.model == RUN_CORE)
+        return r->core.core;
+    sim_cycles cycles = {.issued_one = s->issued_one, .issued_pair = s->issued_pair, .gap = s->gap, .store_forward = s->store_forward,
+                         .blocked = s->blocked};
+    memcpy(cycles.operand, s->operand, sizeof cycles.operand);
+    memcpy(cycles.busy, s->busy, sizeof cycles.busy);
+    return cycles;
 }
 
 static void set_if_any(json_t *object, const char *prefix, const char *name, uint64_t value)
@@ -112,20 +117,52 @@ static void set_if_any(json_t *object, const char *prefix, const char *name, uin
         json_object_set_new(object, key, integer(value));
 }
 
-static json_t *stalls_json(const run_result *r)
+/* Cycles waited for results of one class, however they were to be read. */
+static uint64_t operand_wait(const sim_cycles *s, int class_id)
 {
-    const sim_issue_stats *s = &r->issue;
+    uint64_t sum = 0;
+    for (int kind = 0; kind < SIM_CONSUMERS; kind++)
+        sum += s->operand[class_id][kind];
+    return sum;
+}
+
+static json_t *stalls_json(const sim_cycles *s)
+{
     json_t *object = json_object();
     json_object_set_new(object, "issued_one", integer(s->issued_one));
     json_object_set_new(object, "issued_pair", integer(s->issued_pair));
     for (int k = 0; k < LRB_CLASS_COUNT; k++)
         set_if_any(object, "operand_", lrb_cost_classes[k].name, operand_wait(s, k));
+    set_if_any(object, "", "l2", s->l2);
+    set_if_any(object, "", "memory", s->memory);
     set_if_any(object, "", "store_forward", s->store_forward);
     for (int k = 0; k < LRB_CLASS_COUNT; k++)
         set_if_any(object, "busy_", lrb_cost_classes[k].name, s->busy[k]);
     set_if_any(object, "", "blocked", s->blocked);
+    set_if_any(object, "", "delay", s->delay);
+    set_if_any(object, "", "mispredict", s->mispredict);
+    set_if_any(object, "", "btb_miss", s->btb_miss);
+    set_if_any(object, "", "misses_under_way", s->misses);
+    set_if_any(object, "", "prefetches_under_way", s->prefetches);
     set_if_any(object, "", "gap", s->gap);
+    set_if_any(object, "", "other_thread", s->other_thread);
+    set_if_any(object, "", "no_work", s->no_work);
     return object;
+}
+
+/* Cycles that rest on each basis, by the field that made the core wait; the latency of a level of memory has one field. */
+static void add_plain_bases(const sim_cycles *s, const sim_machine_value *v, uint64_t cycles[SIM_BASIS_COUNT])
+{
+    cycles[v[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)].basis] += s->store_forward;
+    cycles[v[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)].basis] += s->blocked;
+    cycles[v[sim_class_field(LRB_CLASS_delay, SIM_KEY_throughput)].basis] += s->delay;
+    cycles[v[SIM_FIELD_machine_issue_gap].basis] += s->gap;
+    cycles[v[SIM_FIELD_l2_latency].basis] += s->l2;
+    cycles[v[SIM_FIELD_memory_latency].basis] += s->memory;
+    cycles[v[SIM_FIELD_branch_mispredict_penalty].basis] += s->mispredict;
+    cycles[v[SIM_FIELD_branch_btb_miss_penalty].basis] += s->btb_miss;
+    cycles[v[SIM_FIELD_memory_demand_misses_per_thread].basis] += s->misses;
+    cycles[v[SIM_FIELD_memory_prefetches_per_core].basis] += s->prefetches;
 }
 
 void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
@@ -136,38 +173,106 @@ void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
         [SIM_CONSUMER_BRANCH] = SIM_KEY_latency_to_branch,
         [SIM_CONSUMER_ADDRESS] = SIM_KEY_latency_to_address,
     };
-    const sim_issue_stats *s = &r->issue;
+    const sim_cycles s = cycles_of(r);
+    const uint64_t *issued = r->options.model == RUN_CORE ? r->core.issued_by_class : r->issue.issued_by_class;
     const sim_machine_value *v = r->machine->values;
-    uint64_t cycles[SIM_BASIS_COUNT] = {0};
+    uint64_t cycles[SIM_BASIS_COUNT] = {0}, sum = 0;
     for (int i = 0; i < LRB_CLASS_COUNT; i++) {
         lrb_cost_class k = (lrb_cost_class)i;
-        cycles[v[sim_class_field(k, SIM_KEY_throughput)].basis] += s->issued_by_class[k] + s->busy[k];
+        cycles[v[sim_class_field(k, SIM_KEY_throughput)].basis] += issued[k] + s.busy[k];
         for (int kind = 0; kind < SIM_CONSUMERS; kind++) {
             size_t field = sim_class_field(k, latency_key[kind]);
-            cycles[v[v[field].given ? field : sim_class_field(k, SIM_KEY_latency)].basis] += s->operand[k][kind];
+            cycles[v[v[field].given ? field : sim_class_field(k, SIM_KEY_latency)].basis] += s.operand[k][kind];
         }
     }
-    cycles[v[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)].basis] += s->store_forward;
-    cycles[v[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)].basis] += s->blocked;
-    cycles[v[SIM_FIELD_machine_issue_gap].basis] += s->gap;
+    add_plain_bases(&s, v, cycles);
     for (int i = 0; i < SIM_BASIS_COUNT; i++)
-        share[i] = s->cycles ? (double)cycles[i] / (double)s->cycles : 0;
+        sum += cycles[i];
+    for (int i = 0; i < SIM_BASIS_COUNT; i++)
+        share[i] = sum ? (double)cycles[i] / (double)sum : 0;
 }
+
+static json_t *basis_json(const run_result *r)
+{
+    double share[SIM_BASIS_COUNT];
+    json_t *basis = json_object();
+    stats_basis_shares(r, share);
+    for (int i = 0; i < SIM_BASIS_COUNT; i++)
+        json_object_set_new(basis, sim_basis_name((sim_basis)i), report_json_real(share[i], RATIO_DECIMALS));
+    return basis;
+}
+
+/* Core cycles that began with an op of each mnemonic, or in which it was waited for. */
+static json_t *op_cycles_json(const run_result *r)
+{
+    json_t *object = json_object();
+    for (int i = 0; i < LRB_OP_COUNT; i++) {
+        const char *mnemonic = lrb_op_table[i].mnemonic;
+        json_int_t before = json_integer_value(json_object_get(object, mnemonic)); /* two rows may share a mnemonic */
+        if (r->core.op_cycles[i])
+            json_object_set_new(object, mnemonic, json_integer(before + (json_int_t)r->core.op_cycles[i]));
+    }
+    return object;
+}
+
+static json_t *lanes_json(const run_result *r)
+{
+    json_t *object = json_object();
+    for (int i = 0; i < KERNEL_PHASE_COUNT; i++) {
+        uint64_t ops = r->core.phase_vector_ops[i];
+        if (ops)
+            json_object_set_new(object, kernel_phase_names[i],
+                                report_json_real(1 - (double)r->core.phase_idle_lanes[i] / (16.0 * (double)ops), RATIO_DECIMALS));
+    }
+    return object;
+}
+
+static json_t *memory_json(const run_result *r)
+{
+    const sim_hierarchy_counts *m = &r->core.memory;
+    json_t *object = json_object();
+    json_object_set_new(object, "l1_accesses", integer(m->l1_accesses));
+    json_object_set_new(object, "l1_waits", integer(m->l1_waits));
+    json_object_set_new(object, "l1_misses", integer(m->l1_misses));
+    json_object_set_new(object, "l2_accesses", integer(m->l2_accesses));
+    json_object_set_new(object, "l2_misses", integer(m->l2_misses));
+    json_object_set_new(object, "prefetches", integer(m->prefetches));
+    json_object_set_new(object, "dropped_prefetches", integer(m->dropped_prefetches));
+    json_object_set_new(object, "memory_lines", integer(m->memory_lines));
+    json_object_set_new(object, "bank_conflicts", integer(r->core.bank_conflicts));
+    return object;
+}
+
+static json_t *branches_json(const run_result *r)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "total", integer(r->core.branches));
+    json_object_set_new(object, "mispredicted", integer(r->core.mispredicted));
+    json_object_set_new(object, "btb_misses", integer(r->core.btb_misses));
+    return object;
+}
+
+static bool has_stalls(const run_result *r) { return r->options.model == RUN_ISSUE || r->options.model == RUN_CORE; }
 
 static json_t *cycles_json(const run_result *r)
 {
     json_t *object = json_object();
     json_object_set_new(object, "total", integer(r->cycles));
     json_object_set_new(object, "per_ray", report_json_real((double)r->cycles / (double)r->counts.n[KERNEL_rays], RATIO_DECIMALS));
-    if (r->options.model == RUN_ISSUE) {
-        double share[SIM_BASIS_COUNT];
-        json_t *basis = json_object();
-        stats_basis_shares(r, share);
-        for (int i = 0; i < SIM_BASIS_COUNT; i++)
-            json_object_set_new(basis, sim_basis_name((sim_basis)i), report_json_real(share[i], RATIO_DECIMALS));
+    if (has_stalls(r)) {
+        const sim_cycles cycles = cycles_of(r);
         json_object_set_new(object, "by_phase", phases_json(r));
-        json_object_set_new(object, "by_stall", stalls_json(r));
-        json_object_set_new(object, "by_basis", basis);
+        json_object_set_new(object, "by_stall", stalls_json(&cycles));
+        json_object_set_new(object, "by_basis", basis_json(r));
+    }
+    if (r->options.model == RUN_CORE) {
+        json_object_set_new(object, "cores", integer(r->machine->cores));
+        json_object_set_new(object, "threads", integer(r->machine->threads));
+        json_object_set_new(object, "threads_by_stall", stalls_json(&r->core.threads));
+        json_object_set_new(object, "by_op", op_cycles_json(r));
+        json_object_set_new(object, "lane_utilisation", lanes_json(r));
+        json_object_set_new(object, "memory", memory_json(r));
+        json_object_set_new(object, "branches", branches_json(r));
     }
     return object;
 }
@@ -269,7 +374,7 @@ static void add_notes(report_table *t, const run_result *r, double load_seconds)
         snprintf(text, sizeof text, "Lane utilisation of vector ops: %.1f %%.", 100 * run_totals(r).lane_utilisation);
         report_table_add_note(t, text);
     }
-    if (r->options.model == RUN_ISSUE) {
+    if (has_stalls(r)) {
         double share[SIM_BASIS_COUNT];
         size_t length = (size_t)snprintf(text, sizeof text, "Cycles by the basis of the machine's numbers:");
         stats_basis_shares(r, share);
@@ -300,9 +405,15 @@ report_table *stats_table(const run_result *r, double load_seconds)
         report_table_begin_group(t, "simulated cycles");
         add_row(t, r, "total", r->cycles);
     }
-    if (r->options.model == RUN_ISSUE) {
+    if (has_stalls(r)) {
+        const sim_cycles cycles = cycles_of(r);
         add_object(t, r, "cycles by phase", phases_json(r));
-        add_object(t, r, "cycles by stall", stalls_json(r));
+        add_object(t, r, "cycles by stall", stalls_json(&cycles));
+    }
+    if (r->options.model == RUN_CORE) {
+        add_object(t, r, "cycles of the threads by stall", stalls_json(&r->core.threads));
+        add_object(t, r, "memory", memory_json(r));
+        add_object(t, r, "branches", branches_json(r));
     }
     add_notes(t, r, load_seconds);
     return t;

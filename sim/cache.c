@@ -5,12 +5,6 @@
 
 #define NO_LINE UINT64_MAX
 
-struct sim_cache {
-    unsigned ways, line_bits;
-    uint64_t sets; /* a power of two */
-    uint64_t *lines; /* sets x ways, in each set the most recently used first; NO_LINE: a free place */
-};
-
 base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_bytes, sim_cache **out, base_error *err)
 {
     if (line_bytes < 2 || line_bytes & (line_bytes - 1) || !sim_cache_fits(size_bytes, ways, line_bytes))
@@ -41,11 +35,6 @@ void sim_cache_destroy(sim_cache **cache)
     *cache = NULL;
 }
 
-uint64_t sim_cache_line(const sim_cache *cache, uint64_t address)
-{
-    return address >> cache->line_bits;
-}
-
 static uint64_t *set_of(const sim_cache *cache, uint64_t line)
 {
     return cache->lines + (line & (cache->sets - 1)) * cache->ways;
@@ -60,12 +49,18 @@ static unsigned place_of(const sim_cache *cache, const uint64_t *set, uint64_t l
     return place;
 }
 
-bool sim_cache_touch(sim_cache *cache, uint64_t line)
+bool sim_cache_holds(const sim_cache *cache, uint64_t line)
+{
+    return place_of(cache, set_of(cache, line), line) < cache->ways;
+}
+
+bool sim_cache_reorder(sim_cache *cache, uint64_t line)
 {
     uint64_t *set = set_of(cache, line);
     unsigned place = place_of(cache, set, line);
     bool hit = place < cache->ways;
-    memmove(set + 1, set, (hit ? place : cache->ways - 1) * sizeof *set); /* of a miss the last one goes */
+    for (unsigned i = hit ? place : cache->ways - 1; i > 0; i--) /* of a miss the last one goes */
+        set[i] = set[i - 1];
     set[0] = line;
     return hit;
 }

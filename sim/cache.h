@@ -14,7 +14,12 @@
 extern "C" {
 #endif
 
-typedef struct sim_cache sim_cache;
+/* Opaque but to the inline functions below. */
+typedef struct sim_cache {
+    unsigned ways, line_bits;
+    uint64_t sets;   /* a power of two */
+    uint64_t *lines; /* sets x ways, in each set the most recently used first; UINT64_MAX: a free place */
+} sim_cache;
 
 /** Whether so many bytes are a power-of-two number of sets of `ways` lines of line_bytes; entries of a table: lines of 1. */
 static inline bool sim_cache_fits(unsigned size_bytes, unsigned ways, unsigned line_bytes)
@@ -36,7 +41,13 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
 void sim_cache_destroy(sim_cache **cache);
 
 /** Number of the line that holds an address. */
-uint64_t sim_cache_line(const sim_cache *cache, uint64_t address);
+static inline uint64_t sim_cache_line(const sim_cache *cache, uint64_t address) { return address >> cache->line_bits; }
+
+/** Whether a line is there; changes nothing. */
+bool sim_cache_holds(const sim_cache *cache, uint64_t line);
+
+/** What sim_cache_touch does for any line but the most recently used one of its set. */
+bool sim_cache_reorder(sim_cache *cache, uint64_t line);
 
 /**
  * Read or write a line: it is there afterwards, as the most recently used one of its set.
@@ -44,7 +55,10 @@ uint64_t sim_cache_line(const sim_cache *cache, uint64_t address);
  * @param line  below UINT64_MAX
  * @return      whether it was there before
  */
-bool sim_cache_touch(sim_cache *cache, uint64_t line);
+static inline bool sim_cache_touch(sim_cache *cache, uint64_t line)
+{
+    return cache->lines[(line & (cache->sets - 1)) * cache->ways] == line || sim_cache_reorder(cache, line);
+}
 
 /** Drop a line if it is there (clevict). */
 void sim_cache_evict(sim_cache *cache, uint64_t line);

@@ -24,13 +24,8 @@
 #include "lrbni/base/status.h"
 #include "lrbni/event.h"
 #include "lrbni/op_table.h"
+#include "sim/cycles.h"
 #include "sim/machine.h"
-
-/* How a consumer reads an operand: which of the producer's latencies applies. */
-typedef enum sim_consumer { SIM_CONSUMER_PLAIN, SIM_CONSUMER_SHUFFLE, SIM_CONSUMER_BRANCH, SIM_CONSUMER_ADDRESS, SIM_CONSUMERS } sim_consumer;
-
-#define SIM_MAX_PHASES 16
-#define SIM_MAX_REGIONS 16 /* of a tile */
 
 /* Where the cycles went; plain sums, so that stats of tiles add up. */
 typedef struct sim_issue_stats {

@@ -165,6 +165,13 @@ base_status sim_machine_set(sim_machine *machine, const char *assignment, base_e
     return BASE_OK;
 }
 
+unsigned sim_machine_memory_tenths(const sim_machine *machine)
+{
+    const uint64_t chip = machine->memory.chip_bytes_per_cycle;
+    uint64_t share = chip ? ((uint64_t)machine->cores * machine->l1.line_bytes * 10 + chip - 1) / chip : 0;
+    return share > machine->memory.cycles_per_line_tenths ? (unsigned)share : machine->memory.cycles_per_line_tenths;
+}
+
 void sim_machine_destroy(sim_machine **machine)
 {
     free(*machine);

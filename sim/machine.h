@@ -98,7 +98,7 @@ typedef struct sim_machine {
         unsigned size_bytes, ways, line_bytes, latency, remote_latency, cycles_per_line_tenths;
     } l2;
     struct {
-        unsigned latency, cycles_per_line_tenths, demand_misses_per_thread, prefetches_per_core;
+        unsigned latency, cycles_per_line_tenths, demand_misses_per_thread, prefetches_per_core, chip_bytes_per_cycle;
     } memory;
     sim_machine_value values[SIM_FIELDS];
 } sim_machine;
@@ -140,6 +140,10 @@ base_status sim_machine_set(sim_machine *machine, const char *assignment, base_e
  * Errors: BASE_ERR_USAGE with the field at fault.
  */
 base_status sim_machine_check(const sim_machine *machine, base_error *err);
+
+/** Least distance between two lines that one of the machine's cores receives from memory, in tenths of a cycle: its own
+ * limit, or its share of the chip's. */
+unsigned sim_machine_memory_tenths(const sim_machine *machine);
 
 /** Free *machine, which may be NULL, and set it to NULL. */
 void sim_machine_destroy(sim_machine **machine);

@@ -6,9 +6,9 @@
 
 /* The words of the table. */
 #define NO_MODEL "no model"
-#define CORE_ONLY "core (not in this version)"
-#define ISSUE_ON "issue, core (not in this version)"
-#define COUNT_ON "count, issue, core (not in this version)"
+#define CORE_ONLY "core"
+#define ISSUE_ON "issue, core"
+#define COUNT_ON "count, issue, core"
 
 #define BIT(id) (UINT32_C(1) << LRB_CLASS_##id)
 #define ALL_CLASSES (((UINT32_C(1) << LRB_CLASS_COUNT) - 1) & ~BIT(marker))

@@ -88,7 +88,6 @@ def usage__wrong_words__one_line_and_exit_2(folder):
 
 
 def usage__features_of_later_versions__said_so(folder):
-    fails(['run-kernel', 'mft-primary', *SMALL, '--model', 'core'], 'not in this version')
     fails(['run-kernel', 'mft-primary', *SMALL, '--error', '0.1'], 'not in this version')
     fails(['run-kernel', 'mft-primary', *SMALL, '--trace', folder + '/t.ltr'], 'not in this version')
     fails(['replay', 'x.ltr'], 'not in this version')
@@ -146,7 +145,7 @@ def output__failed_run__old_file_kept_and_nothing_left(folder):
 
 def stats__schema__as_promised(folder):
     s = stats_of('mft-primary', *SMALL)
-    assert s['schema'] == 'lanetrace-stats-1' and s['kernel'] == 'mft-primary' and s['model'] == 'issue'
+    assert s['schema'] == 'lanetrace-stats-1' and s['kernel'] == 'mft-primary' and s['model'] == 'core'
     assert s['machine']['name'] == 'larrabee' and len(s['machine']['hash']) == 16
     assert s['image'] == {'width': 48, 'height': 40} and s['scene']['triangles'] == 804
     assert s['scene']['accel']['kind'] == 'bvh' and s['scene']['accel']['nodes'] > s['scene']['accel']['leaves'] > 0
@@ -172,17 +171,27 @@ def stats__native__only_what_needs_no_accounting(folder):
 
 def stats__models_and_jobs__equal_counts(folder):
     for kernel in ('packet16-primary', 'mft-primary'):
-        native, count, issue = (stats_of(kernel, *SMALL, '--model', m) for m in ('native', 'count', 'issue'))
-        assert native['counts'] == count['counts'] == issue['counts']
-        assert count['ops'] == issue['ops']
-        for jobs in ('1', '2', '5'):
-            again = stats_of(kernel, *SMALL, '--jobs', jobs)
-            assert all(again[key] == issue[key] for key in ('counts', 'ops', 'cycles', 'scene', 'machine'))
+        native, count, issue, core = (stats_of(kernel, *SMALL, '--model', m) for m in ('native', 'count', 'issue', 'core'))
+        assert native['counts'] == count['counts'] == issue['counts'] == core['counts']
+        assert count['ops'] == issue['ops'] == core['ops']
+        for options in ([], ['--set', 'cores=3'], ['--model', 'issue']):
+            runs = [stats_of(kernel, *SMALL, *options, '--jobs', jobs) for jobs in ('1', '2', '5')]
+            assert all(run[key] == runs[0][key] for run in runs for key in ('counts', 'ops', 'cycles', 'scene', 'machine'))
+
+
+def stats__core__buckets_sum_to_total(folder):
+    for options in ([], ['--set', 'cores=3'], ['--machine', 'knc'], ['--set', 'threads=1']):
+        cycles = stats_of('mft-primary', *SMALL, *options)['cycles']
+        total, cores, threads = cycles['total'], cycles['cores'], cycles['threads']
+        assert sum(cycles['by_stall'].values()) == total * cores
+        assert sum(cycles['threads_by_stall'].values()) == total * cores * threads
+        idle = cycles['by_stall'].get('no_work', 0)
+        assert sum(cycles['by_phase'].values()) == sum(cycles['by_op'].values()) == total * cores - idle
 
 
 def stats__machine_overrides__change_cycles_and_hash_only(folder):
     base, slow = stats_of('mft-primary', *SMALL), stats_of('mft-primary', *SMALL, '--set', 'issue_gap=2')
-    assert slow['cycles']['total'] > base['cycles']['total'] and slow['cycles']['by_stall']['gap'] > 0
+    assert slow['cycles']['total'] > base['cycles']['total'] and slow['cycles']['threads_by_stall']['gap'] > 0
     assert slow['machine']['hash'] != base['machine']['hash'] and slow['counts'] == base['counts'] and slow['ops'] == base['ops']
     knc = stats_of('mft-primary', *SMALL, '--machine', 'knc')
     assert knc['cycles']['total'] > base['cycles']['total'] and knc['machine']['name'] == 'knc'

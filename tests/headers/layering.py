@@ -17,7 +17,7 @@ RULES = {
     "kernels": ["lrbni/", "scene/", "kernels/"],
     "sim": ["lrbni/", "sim/"],
     "traces": ["lrbni/", "traces/"],
-    "reports": ["lrbni/base/", "lrbni/op_table.h", "sim/machine.h", "sim/issue.h", "sim/count.h", "reports/"],
+    "reports": ["lrbni/base/", "lrbni/op_table.h", "sim/machine.h", "sim/cycles.h", "sim/issue.h", "sim/count.h", "reports/"],
     "cli": ["lrbni/", "scene/", "kernels/", "sim/", "traces/", "reports/", "cli/"],
     "tests": ["lrbni/", "scene/", "kernels/", "sim/", "traces/", "reports/", "cli/", "tests/"],
 }

@@ -82,6 +82,82 @@ base_status random_machine(base_random *random, sim_machine **out, base_error *e
     return status;
 }
 
+/* One plain field. */
+static base_status set_field(sim_machine *machine, const char *name, unsigned value, base_error *err)
+{
+    char assignment[100];
+    snprintf(assignment, sizeof assignment, "%s=%u", name, value);
+    return sim_machine_set(machine, assignment, err);
+}
+
+static base_status set_tenths(sim_machine *machine, const char *name, unsigned tenths, base_error *err)
+{
+    char assignment[100];
+    snprintf(assignment, sizeof assignment, "%s=%u.%u", name, tenths / 10, tenths % 10);
+    return sim_machine_set(machine, assignment, err);
+}
+
+/* Small caches, so that lines leave them. */
+static base_status set_caches(base_random *random, sim_machine *machine, base_error *err)
+{
+    const unsigned line = 64u << below(random, 2), ways1 = 1u << below(random, 4), ways2 = 1u << below(random, 4);
+    const unsigned size1 = line * ways1 << (4 + below(random, 2)), size2 = line * ways2 << (4 + below(random, 5));
+    const unsigned latency1 = 1 + below(random, 5), latency2 = latency1 + below(random, 30);
+    const struct {
+        const char *name;
+        unsigned value;
+    } fields[] = {
+        {"l1.line_bytes", line}, {"l2.line_bytes", line}, {"l1.ways", ways1}, {"l2.ways", ways2},
+        {"l1.size_bytes", size1}, {"l2.size_bytes", size2}, {"l1.latency", latency1}, {"l2.latency", latency2},
+        {"l2.remote_latency", latency2}, {"memory.latency", latency2 + below(random, below(random, 3) ? 60 : 400)},
+        {"l1.banks", below(random, 5)}, {"l1.load_bytes_per_cycle", 64 + 64 * below(random, 2)},
+        {"l1.store_bytes_per_cycle", 64 + 64 * below(random, 2)},
+        {"memory.demand_misses_per_thread", small_number(random, 5)}, {"memory.prefetches_per_core", below(random, 6)},
+        {"memory.chip_bytes_per_cycle", below(random, 3) * below(random, 200)}, {"cores", small_number(random, 4)},
+    };
+    base_status status = BASE_OK;
+    for (size_t i = 0; i < sizeof fields / sizeof *fields && !status; i++)
+        status = set_field(machine, fields[i].name, fields[i].value, err);
+    if (!status)
+        status = set_tenths(machine, "l2.cycles_per_line", below(random, 60), err);
+    return status ? status : set_tenths(machine, "memory.cycles_per_line", below(random, 2) ? below(random, 300) : 0, err);
+}
+
+base_status random_core_machine(base_random *random, sim_machine **out, base_error *err)
+{
+    const unsigned ways = small_number(random, 3);
+    base_status status = random_machine(random, out, err);
+    if (status)
+        return status;
+    const struct {
+        const char *name;
+        unsigned value;
+    } fields[] = {
+        {"threads", below(random, 3) ? small_number(random, 6) : 4},
+        {"branch.mispredict_penalty", below(random, 12)}, {"branch.btb_miss_penalty", below(random, 12)},
+        {"branch.btb_ways", ways}, {"branch.btb_entries", ways << below(random, 6)},
+    };
+    for (size_t i = 0; i < sizeof fields / sizeof *fields && !status; i++)
+        status = set_field(*out, fields[i].name, fields[i].value, err);
+    if (!status)
+        status = set_caches(random, *out, err);
+    if (!status)
+        status = sim_machine_check(*out, err);
+    if (status)
+        sim_machine_destroy(out);
+    return status;
+}
+
+void random_core_machine_print(const sim_machine *machine)
+{
+    random_machine_print(machine);
+    for (size_t number = 0; number < SIM_PLAIN_FIELDS; number++) {
+        sim_field_view view;
+        if (sim_machine_field(machine, number, &view))
+            printf("# %s.%s = %s\n", view.section, view.key, view.value);
+    }
+}
+
 void random_machine_print(const sim_machine *machine)
 {
     static const char *const pipes[] = {"-", "U", "V", "UV"};

@@ -1,4 +1,4 @@
-/* Random machine descriptions: every field of every cost class that the issue model reads, within its limits. */
+/* Random machine descriptions: every field that the timing models read, within its limits. */
 #ifndef TESTS_SIM_RANDOM_MACHINE_H
 #define TESTS_SIM_RANDOM_MACHINE_H
 
@@ -15,6 +15,12 @@
  * Errors: those of sim_machine_load, sim_machine_set and sim_machine_check, none of which is expected.
  */
 base_status random_machine(base_random *random, sim_machine **out, base_error *err);
+
+/** The same with the fields of branches, caches, memory and threads drawn as well: small caches, short latencies. */
+base_status random_core_machine(base_random *random, sim_machine **out, base_error *err);
+
+/** Print what the core model reads of a machine. */
+void random_core_machine_print(const sim_machine *machine);
 
 /** Print what the issue model reads of a machine, a comment line (# ...) per cost class. */
 void random_machine_print(const sim_machine *machine);

@@ -1,5 +1,6 @@
 #include "tests/sim/random_stream.h"
 
+#include "lrbni/memory.h"
 #include "lrbni/op_table.h"
 
 /* What the ops of a tile have in common. */
@@ -36,6 +37,8 @@ static flavour random_flavour(base_random *random)
     f.lines = 1 + below(random, below(random, 2) ? 3 : 200);
     f.line_step = below(random, 2) ? 1 : 16u << below(random, 4);
     f.first_line = below(random, 2) ? below(random, 4) : (uint32_t)base_random_bits(random) / 64;
+    if (below(random, 4) == 0)
+        f.first_line = LRB_SCRATCH_ADDRESS / 64 - 2; /* into a thread's own memory */
     return f;
 }
 
@@ -91,12 +94,14 @@ static lrb_event random_op(base_random *random, const flavour *f)
     int is_vector = lrb_op_kind_of((lrb_op_id)id) == LRB_KIND_VECTOR;
     if (is_vector && below(random, 3) == 0)
         e.mask = (uint16_t)(below(random, 2) ? base_random_bits(random) : 1u << below(random, 16));
-    if (lrb_op_is_memory((lrb_op_id)id) || form & LRB_FORM_MEMORY) {
+    if (lrb_op_access_of((lrb_op_id)id) != LRB_ACCESS_NONE || form & LRB_FORM_MEMORY) {
         unsigned bytes = lrb_form_bytes(form) ? lrb_form_bytes(form) : is_vector ? 64 : 4;
         e.aux = random_address(random, f, id == LRB_OP_load16 ? 2 : bytes);
     } else if (lrb_op_table[id].class_id == LRB_CLASS_branch) {
         e.mask = (uint16_t)below(random, 2);
-        e.aux = below(random, 1000);
+        e.aux = below(random, below(random, 2) ? 1000 : 8);
+    } else if (id == LRB_OP_delay) {
+        e.aux = below(random, below(random, 4) ? 20 : 300);
     }
     return e;
 }

@@ -143,7 +143,7 @@ static void field__optional_keys__only_where_they_apply(void **state)
     assert_string_equal(view.value, "0");
     assert_string_equal(view.unit, "cycles");
     assert_string_equal(sim_basis_name(view.basis), "inferred");
-    assert_string_equal(view.used_by, "issue, core (not in this version)");
+    assert_string_equal(view.used_by, "issue, core");
     assert_false(sim_machine_field(machine, sim_class_field(LRB_CLASS_vector_alu, SIM_KEY_latency_to_branch), &view));
     assert_false(sim_machine_field(machine, sim_class_field(LRB_CLASS_marker, SIM_KEY_latency), &view));
     assert_false(sim_machine_field(machine, SIM_FIELDS, &view));
@@ -294,10 +294,10 @@ static void check__after_set__names_the_field(void **state)
     (void)state;
     sim_machine *machine = load("larrabee");
     base_error err = {0};
-    assert_int_equal(sim_machine_set(machine, "l1.line_bytes=48", NULL), BASE_OK);
+    assert_int_equal(sim_machine_set(machine, "l1.line_bytes=96", NULL), BASE_OK);
     assert_int_equal(sim_machine_check(machine, &err), BASE_ERR_USAGE);
     assert_string_equal(err.what, "l1.line_bytes");
-    assert_string_equal(err.why, "48 is not a power of two");
+    assert_string_equal(err.why, "96 is not a power of two");
     assert_int_equal(sim_machine_set(machine, "l1.line_bytes=128", NULL), BASE_OK);
     assert_int_equal(sim_machine_check(machine, &err), BASE_ERR_USAGE);
     assert_string_equal(err.what, "l2.line_bytes");

@@ -1,0 +1,169 @@
+#include "cli/run_core.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/record_ahead.h"
+#include "cli/recorder.h"
+#include "lrbni/base/parallel.h"
+#include "sim/core.h"
+
+/* One simulated core and the tiles that are its. */
+typedef struct core_run {
+    run_result *result;
+    progress *bar;
+    unsigned worker;
+    size_t next, step;      /* its next tile, and how far the one after it is */
+    recorder *recorder;     /* of its host thread; unused if ... */
+    record_ahead *ahead;    /* ... tiles are recorded ahead */
+    recording *own;         /* by hardware thread */
+    recording **taken;      /* from `ahead`, by hardware thread */
+    size_t *tile;           /* of each hardware thread */
+} core_run;
+
+static base_status next_tile(void *user, unsigned thread, const lrb_event **events, size_t *count, base_error *err)
+{
+    core_run *r = user;
+    recording *tile = &r->own[thread];
+    base_status status;
+    *events = NULL;
+    if (r->taken[thread])
+        record_ahead_release(r->ahead, r->taken[thread]);
+    r->taken[thread] = NULL;
+    if (r->next >= kernel_job_tiles(r->result->job))
+        return BASE_OK;
+    r->tile[thread] = r->next;
+    r->next += r->step;
+    if (r->ahead) {
+        status = record_ahead_take(r->ahead, r->tile[thread], &tile, err);
+        r->taken[thread] = status == BASE_OK ? tile : NULL;
+    } else {
+        status = recorder_tile(r->recorder, r->tile[thread], tile, err);
+    }
+    if (status != BASE_OK)
+        return status;
+    *events = tile->events;
+    *count = tile->count;
+    return BASE_OK;
+}
+
+static void tile_done(void *user, unsigned thread, const uint64_t regions[SIM_MAX_REGIONS + 1])
+{
+    core_run *r = user;
+    double *cycles = r->result->region_cycles + r->tile[thread] * (SIM_MAX_REGIONS + 1);
+    for (int i = 0; i <= SIM_MAX_REGIONS; i++)
+        cycles[i] = (double)regions[i];
+    progress_step(r->bar, r->worker);
+}
+
+/* Simulate one core from its first tile to its last. */
+static base_status simulate(core_run *r, sim_core_stats *stats, base_error *err)
+{
+    const unsigned threads = r->result->machine->threads;
+    const sim_core_feed feed = {.next = next_tile, .done = tile_done, .user = r};
+    sim_core *core = NULL;
+    r->own = calloc(threads, sizeof *r->own);
+    r->taken = calloc(threads, sizeof *r->taken);
+    r->tile = calloc(threads, sizeof *r->tile);
+    base_status status = BASE_OK;
+    if (!r->own || !r->taken || !r->tile)
+        status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
+    if (status == BASE_OK)
+        status = sim_core_create(r->result->machine, &core, err);
+    if (status == BASE_OK)
+        status = sim_core_run(core, &feed, err);
+    if (status == BASE_OK)
+        *stats = sim_core_get(core);
+    sim_core_destroy(&core);
+    for (unsigned t = 0; r->own && t < threads; t++)
+        recording_free(&r->own[t]);
+    free(r->own);
+    free(r->taken);
+    free(r->tile);
+    return status;
+}
+
+/* All simulated cores of a run. */
+typedef struct chip {
+    run_result *result;
+    progress *bar;
+    recorder *recorders; /* by host thread */
+    sim_core_stats *stats; /* by core */
+    base_error *errors;  /* by core */
+} chip;
+
+static void simulate_core(void *user, size_t core, unsigned worker)
+{
+    chip *c = user;
+    core_run r = {.result = c->result, .bar = c->bar, .worker = worker, .next = core, .step = c->result->machine->cores,
+                  .recorder = &c->recorders[worker]};
+    simulate(&r, &c->stats[core], &c->errors[core]);
+}
+
+/* One core here, its tiles recorded ahead by the other host threads. */
+static base_status simulate_single(chip *c, unsigned jobs, base_error *err)
+{
+    core_run r = {.result = c->result, .bar = c->bar, .step = 1, .recorder = &c->recorders[0]};
+    base_status status = BASE_OK;
+    if (jobs > 1)
+        status = record_ahead_start(c->recorders + 1, jobs - 1, kernel_job_tiles(c->result->job), c->result->machine->threads, &r.ahead, err);
+    if (status == BASE_OK)
+        status = simulate(&r, c->stats, err);
+    record_ahead_stop(&r.ahead);
+    return status;
+}
+
+static base_status simulate_all(chip *c, unsigned jobs, base_error *err)
+{
+    const unsigned cores = c->result->machine->cores;
+    if (cores == 1)
+        return simulate_single(c, jobs, err);
+    base_parallel_for(jobs, cores, simulate_core, c);
+    for (unsigned i = 0; i < cores; i++)
+        if (c->errors[i].status != BASE_OK)
+            return base_fail(err, c->errors[i].status, c->errors[i].what, "%s", c->errors[i].why);
+    return BASE_OK;
+}
+
+/* The run takes as long as its slowest core; the others have no work at its end. */
+static void collect(const chip *c, unsigned jobs)
+{
+    run_result *result = c->result;
+    for (unsigned i = 0; i < result->machine->cores; i++)
+        result->cycles = c->stats[i].cycles > result->cycles ? c->stats[i].cycles : result->cycles;
+    for (unsigned i = 0; i < result->machine->cores; i++) {
+        sim_core_stats_idle(&c->stats[i], result->machine, result->cycles - c->stats[i].cycles);
+        sim_core_stats_add(&result->core, &c->stats[i]);
+    }
+    for (unsigned i = 0; i < jobs; i++)
+        for (int n = 0; n < KERNEL_COUNTER_COUNT; n++)
+            result->counts.n[n] += c->recorders[i].counts.n[n];
+    memcpy(result->ops, result->core.ops, sizeof result->ops);
+    result->memory_operands = result->core.memory_operands;
+    for (int phase = 0; phase < SIM_MAX_PHASES; phase++)
+        result->idle_lanes += result->core.phase_idle_lanes[phase];
+}
+
+base_status run_core(run_result *result, progress *bar, base_error *err)
+{
+    const unsigned jobs = result->options.jobs, cores = result->machine->cores;
+    chip c = {.result = result, .bar = bar};
+    c.recorders = calloc(jobs, sizeof *c.recorders);
+    c.stats = calloc(cores, sizeof *c.stats);
+    c.errors = calloc(cores, sizeof *c.errors);
+    base_status status = BASE_OK;
+    if (!c.recorders || !c.stats || !c.errors)
+        status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
+    for (unsigned i = 0; status == BASE_OK && i < jobs; i++)
+        status = recorder_create(result->options.kernel, result->job, result->tile_counts, &c.recorders[i], err);
+    if (status == BASE_OK)
+        status = simulate_all(&c, jobs, err);
+    if (status == BASE_OK)
+        collect(&c, jobs);
+    for (unsigned i = 0; c.recorders && i < jobs; i++)
+        recorder_destroy(&c.recorders[i]);
+    free(c.recorders);
+    free(c.stats);
+    free(c.errors);
+    return status;
+}
