@@ -37,15 +37,18 @@ static void append(void *user, const lrb_event *events, uint32_t count)
     r->count += count;
 }
 
-base_status recorder_create(const kernel_info *kernel, const kernel_job *job, kernel_counts *tile_counts, recorder *out, base_error *err)
+base_status recorder_create(const kernel_info *kernel, const kernel_job *job, const sim_machine *machine, kernel_counts *tile_counts,
+                            recorder *out, base_error *err)
 {
     *out = (recorder){.kernel = kernel, .job = job, .tile_counts = tile_counts};
-    return lrb_ctx_create(append, out, &out->ctx, err);
+    base_status status = sim_chain_meter_create(machine, &out->meter, err);
+    return status == BASE_OK ? lrb_ctx_create(append, out, &out->ctx, err) : status;
 }
 
 void recorder_destroy(recorder *r)
 {
     lrb_ctx_destroy(&r->ctx);
+    sim_chain_meter_destroy(&r->meter);
 }
 
 base_status recorder_tile(recorder *r, size_t tile, recording *into, base_error *err)
@@ -61,5 +64,7 @@ base_status recorder_tile(recorder *r, size_t tile, recording *into, base_error 
         r->counts.n[i] += counts.n[i];
     if (r->tile_counts)
         r->tile_counts[tile] = counts;
+    if (!into->failed)
+        sim_chain_meter_tile(r->meter, into->events, into->count, &r->chains);
     return into->failed ? base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory for the events of a tile") : BASE_OK;
 }

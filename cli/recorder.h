@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "kernels/kernel.h"
+#include "sim/bounds.h"
 
 /* The events of a tile; the buffer is used again for the next one. */
 typedef struct recording {
@@ -24,11 +25,14 @@ typedef struct recorder {
     lrb_ctx *ctx;
     kernel_counts counts; /* of all tiles so far */
     kernel_counts *tile_counts; /* by tile, or NULL; not owned */
+    sim_chain_meter *meter;
+    sim_chains chains;    /* of all tiles so far */
     recording *into;
 } recorder;
 
 /** Errors: BASE_ERR_NOMEM. The recorder must not move until recorder_destroy, which is allowed after a failure. */
-base_status recorder_create(const kernel_info *kernel, const kernel_job *job, kernel_counts *tile_counts, recorder *out, base_error *err);
+base_status recorder_create(const kernel_info *kernel, const kernel_job *job, const sim_machine *machine, kernel_counts *tile_counts,
+                            recorder *out, base_error *err);
 
 /** Free what a recorder owns. */
 void recorder_destroy(recorder *r);

@@ -7,6 +7,7 @@
 
 #include "kernels/kernel.h"
 #include "scene/scene.h"
+#include "sim/bounds.h"
 #include "sim/core.h"
 #include "sim/issue.h"
 #include "sim/machine.h"
@@ -44,6 +45,7 @@ typedef struct run_result {
     uint64_t memory_operands, idle_lanes;
     sim_issue_stats issue; /* RUN_ISSUE */
     sim_core_stats core;   /* RUN_CORE: summed over the simulated cores */
+    sim_chains chains;     /* RUN_CORE: of the tiles */
     uint64_t cycles;       /* all models but RUN_NATIVE; RUN_CORE: of the slowest core */
     double *region_cycles; /* all models but RUN_NATIVE: by tile, SIM_MAX_REGIONS + 1 each: blocks, then the whole tile */
     kernel_counts *tile_counts; /* by tile, or NULL */

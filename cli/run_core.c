@@ -135,9 +135,11 @@ static void collect(const chip *c, unsigned jobs)
         sim_core_stats_idle(&c->stats[i], result->machine, result->cycles - c->stats[i].cycles);
         sim_core_stats_add(&result->core, &c->stats[i]);
     }
-    for (unsigned i = 0; i < jobs; i++)
+    for (unsigned i = 0; i < jobs; i++) {
+        sim_chains_add(&result->chains, &c->recorders[i].chains);
         for (int n = 0; n < KERNEL_COUNTER_COUNT; n++)
             result->counts.n[n] += c->recorders[i].counts.n[n];
+    }
     memcpy(result->ops, result->core.ops, sizeof result->ops);
     result->memory_operands = result->core.memory_operands;
     for (int phase = 0; phase < SIM_MAX_PHASES; phase++)
@@ -155,7 +157,7 @@ base_status run_core(run_result *result, progress *bar, base_error *err)
     if (!c.recorders || !c.stats || !c.errors)
         status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     for (unsigned i = 0; status == BASE_OK && i < jobs; i++)
-        status = recorder_create(result->options.kernel, result->job, result->tile_counts, &c.recorders[i], err);
+        status = recorder_create(result->options.kernel, result->job, result->machine, result->tile_counts, &c.recorders[i], err);
     if (status == BASE_OK)
         status = simulate_all(&c, jobs, err);
     if (status == BASE_OK)

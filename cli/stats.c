@@ -252,6 +252,16 @@ static json_t *branches_json(const run_result *r)
     return object;
 }
 
+/* Lower bounds of the cycles. */
+static json_t *bounds_json(const run_result *r)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "dependence", integer(sim_bound_dependence(r->machine, &r->chains)));
+    json_object_set_new(object, "ports", integer(sim_bound_ports(r->machine, r->ops)));
+    json_object_set_new(object, "memory", integer(sim_bound_memory(r->machine, &r->core.memory)));
+    return object;
+}
+
 static bool has_stalls(const run_result *r) { return r->options.model == RUN_ISSUE || r->options.model == RUN_CORE; }
 
 static json_t *cycles_json(const run_result *r)
@@ -269,6 +279,7 @@ static json_t *cycles_json(const run_result *r)
         json_object_set_new(object, "cores", integer(r->machine->cores));
         json_object_set_new(object, "threads", integer(r->machine->threads));
         json_object_set_new(object, "threads_by_stall", stalls_json(&r->core.threads));
+        json_object_set_new(object, "bounds", bounds_json(r));
         json_object_set_new(object, "by_op", op_cycles_json(r));
         json_object_set_new(object, "lane_utilisation", lanes_json(r));
         json_object_set_new(object, "memory", memory_json(r));
@@ -412,6 +423,7 @@ report_table *stats_table(const run_result *r, double load_seconds)
     }
     if (r->options.model == RUN_CORE) {
         add_object(t, r, "cycles of the threads by stall", stalls_json(&r->core.threads));
+        add_object(t, r, "lower bounds of the cycles", bounds_json(r));
         add_object(t, r, "memory", memory_json(r));
         add_object(t, r, "branches", branches_json(r));
     }

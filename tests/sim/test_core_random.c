@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "lrbni/base/random.h"
+#include "sim/bounds.h"
 #include "sim/core.h"
 #include "tests/sim/random_machine.h"
 #include "tests/sim/random_stream.h"
@@ -160,6 +161,26 @@ static void assert_sums(const sim_machine *machine, const work *w, const sim_cor
     assert_int_equal(regions, s->cycles);
 }
 
+/* No bound is above the cycles of one core. */
+static void assert_bounds(sim_machine *machine, const work *w, const sim_core_stats *s)
+{
+    sim_chain_meter *meter = NULL;
+    sim_chains chains = {0};
+    char restore[40];
+    const unsigned cores = machine->cores;
+    const uint64_t memory = sim_bound_memory(machine, &s->memory); /* with the share of one core of `cores` */
+    snprintf(restore, sizeof restore, "cores=%u", cores);
+    assert_int_equal(sim_chain_meter_create(machine, &meter, NULL), BASE_OK);
+    for (size_t i = 0; i < w->count; i++)
+        sim_chain_meter_tile(meter, w->tiles[i].events, w->tiles[i].count, &chains);
+    assert_int_equal(sim_machine_set(machine, "cores=1", NULL), BASE_OK);
+    assert_true(sim_bound_dependence(machine, &chains) <= s->cycles);
+    assert_true(sim_bound_ports(machine, s->ops) <= s->cycles);
+    assert_true(memory <= s->cycles);
+    assert_int_equal(sim_machine_set(machine, restore, NULL), BASE_OK);
+    sim_chain_meter_destroy(&meter);
+}
+
 static uint64_t draw_work(base_random *random, work *w)
 {
     uint64_t events = 0;
@@ -192,6 +213,7 @@ static void random__any_machine__fast_equals_slow(void **state)
                 fail();
             }
             assert_sums(machine, w, &fast);
+            assert_bounds(machine, w, &fast);
         }
         sim_machine_destroy(&machine);
     }

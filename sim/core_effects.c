@@ -1,0 +1,101 @@
+#include "sim/core_state.h"
+
+/* The data of an op that has issued comes later than from the first level. */
+void core_delay_result(sim_core *s, core_thread *h, const sim_op_price *p, sim_fetch fetch)
+{
+    sim_result *r = &h->results[h->next & (s->window - 1)];
+    unsigned bucket = fetch.from == SIM_LEVEL_2 ? SIM_BUCKET_L2 : SIM_BUCKET_MEMORY;
+    for (int kind = 0; kind < SIM_CONSUMERS; kind++)
+        r->ready[kind] = sim_blame(fetch.arrival + sim_time_of(p->latency.ready[kind]), bucket);
+    h->late[h->next & (s->late_window - 1)] = (core_late_result){.number = h->next, .result = *r};
+    if (fetch.arrival + s->longest_latency > h->late_until)
+        h->late_until = fetch.arrival + s->longest_latency;
+}
+
+/* The thread issues nothing before then, and nothing joins the op. */
+static void hold_thread(core_thread *h, sim_blamed until)
+{
+    h->start = until > h->start ? until : h->start;
+    h->partners = 0;
+}
+
+void core_take_branch(sim_core *s, core_thread *h, const lrb_event *e)
+{
+    const sim_prediction how = sim_predictor_branch(s->predictor, e->aux, e->mask & 1);
+    const unsigned penalty = how == SIM_MISPREDICTED ? s->machine->branch.mispredict_penalty
+                             : how == SIM_BTB_MISS   ? s->machine->branch.btb_miss_penalty
+                                                     : 0;
+    s->stats.mispredicted += how == SIM_MISPREDICTED;
+    s->stats.btb_misses += how == SIM_BTB_MISS;
+    s->stats.branches++;
+    if (penalty)
+        hold_thread(h, h->now + sim_blame(penalty + 1, how == SIM_MISPREDICTED ? SIM_BUCKET_MISPREDICT : SIM_BUCKET_BTB_MISS));
+}
+
+static void prefetch(sim_core *s, uint64_t line, sim_level level)
+{
+    bool misses = level == SIM_LEVEL_1 ? sim_hierarchy_would_miss(s->memory, line, s->now)
+                                       : sim_hierarchy_would_miss_l2(s->memory, line, s->now);
+    if (misses && s->prefetches.count)
+        sim_slots_take(&s->prefetches, sim_hierarchy_prefetch(s->memory, line, s->now, level).arrival);
+    else
+        s->memory->counts.dropped_prefetches++;
+}
+
+void core_take_hint(sim_core *s, core_thread *h, const lrb_event *e)
+{
+    switch (e->op & LRB_EVENT_ID) {
+    case LRB_OP_prefetch1:
+        prefetch(s, core_line_of(s, h, e), SIM_LEVEL_1);
+        break;
+    case LRB_OP_prefetch2:
+        prefetch(s, core_line_of(s, h, e), SIM_LEVEL_2);
+        break;
+    case LRB_OP_evict1:
+        sim_cache_evict(s->memory->l1, core_line_of(s, h, e));
+        break;
+    case LRB_OP_evict2:
+        sim_cache_evict(s->memory->l2, core_line_of(s, h, e));
+        break;
+    default: /* delay */
+        if (e->aux)
+            hold_thread(h, h->now + sim_blame(e->aux, SIM_BUCKET_DELAY));
+        break;
+    }
+}
+
+/* Put the cycles before `cycle` that a thread has spent into their buckets. */
+void core_settle(sim_core *s, core_thread *h, uint64_t cycle)
+{
+    const unsigned t = (unsigned)(h - s->thread);
+    const uint64_t ready_at = s->turn[t] / CORE_TURN;
+    if (cycle <= h->waits_from)
+        return;
+    s->thread_waited[s->why[t]] += (ready_at < cycle ? ready_at : cycle) - h->waits_from;
+    s->other_thread += ready_at < cycle ? cycle - ready_at : 0;
+    h->waits_from = cycle;
+}
+
+/* A class is busy, for the threads whose next op is of it too. */
+static void keep_busy(sim_core *s, const core_thread *h, const sim_op_price *p)
+{
+    const sim_blamed until = h->now + sim_blame(p->busy, SIM_BUCKET_BUSY + p->class_id);
+    s->class_free[p->class_id] = until;
+    for (unsigned t = 0; t < s->threads; t++) {
+        core_thread *other = &s->thread[t];
+        if (other == h || s->turn[t] == CORE_NEVER || other->price->class_id != p->class_id ||
+            sim_blame(s->turn[t] / CORE_TURN, s->why[t]) >= until)
+            continue;
+        core_settle(s, other, s->now + 1);
+        core_set_turn(s, t, until);
+    }
+}
+
+/* An op of a lasting class has issued: the class is busy for all threads, and the thread perhaps blocked. */
+void core_outlast(sim_core *s, core_thread *h, const sim_op_price *p)
+{
+    if (p->busy > 1)
+        keep_busy(s, h, p);
+    if (p->blocking)
+        hold_thread(h, h->now + sim_blame(p->blocking, SIM_BUCKET_BLOCKED));
+}

@@ -1,0 +1,109 @@
+/* The state of the core model, and the steps of an op that are shared by its files. Private to sim. */
+#ifndef SIM_CORE_STATE_H
+#define SIM_CORE_STATE_H
+
+#include <stdbool.h>
+
+#include "lrbni/memory.h"
+#include "sim/branch.h"
+#include "sim/core.h"
+#include "sim/pipeline.h"
+#include "sim/slots.h"
+
+/* Turns leave room for a thread's place in the order of choice. */
+enum { CORE_TURN = 128 };
+#define CORE_NEVER (UINT64_MAX - (CORE_TURN - 1))
+
+enum { CORE_OPS = 512 };
+_Static_assert((int)LRB_OP_COUNT <= CORE_OPS, "the counters have a place for every op");
+
+/* The result of an op that waited for its line: kept longer than others. */
+typedef struct core_late_result {
+    uint32_t number; /* of the op */
+    sim_result result;
+} core_late_result;
+
+/* A hardware thread. Times are cycles, or blamed times where the type says so. */
+typedef struct core_thread {
+    const lrb_event *event, *end; /* the op that issues next, and the end of the tile */
+    const sim_op_price *price;    /* of the op */
+    sim_blamed now;     /* of the last issue, bucket 0 */
+    sim_blamed start;   /* the next op issues later than this, unless it joins */
+    uint64_t waits_from; /* cycles before this are in a bucket, or in the gap */
+    sim_result *results; /* of the youngest ops */
+    uint32_t next;      /* number of the next op */
+    uint32_t tile_first; /* number of the tile's first op */
+    uint32_t partners;  /* set of classes of which an op may join the last one in V */
+    uint32_t scratch;   /* displacement of the thread's scratch memory */
+    uint64_t late_until; /* no late result is ready later */
+    uint64_t stores_until; /* no store is ready later */
+    core_late_result *late;  /* by number of the op */
+    sim_slots misses;
+    sim_store_line stores[SIM_STORE_LINES];
+
+    uint64_t cycles;    /* core cycles so far that belong to the thread's ops */
+    uint64_t phase_start, region_start; /* of these */
+    uint64_t vector_ops, idle_lanes;    /* of the phase */
+    bool ran; /* it has issued an op in this run */
+    uint32_t phase, region;
+    uint64_t regions[SIM_MAX_REGIONS + 1]; /* of the tile */
+} core_thread;
+
+struct sim_core {
+    const sim_machine *machine;
+    sim_op_price *price;
+    uint32_t window, late_window; /* powers of two */
+    uint64_t gap;
+    unsigned threads, line_bits, longest_latency;
+
+    /* The turn of a thread is the cycle in which its next op can issue, times CORE_TURN; CORE_NEVER: it has none. There are two
+       copies one after the other, so that those of the threads after any one lie in a row. */
+    uint64_t *turn;
+    uint8_t *why;      /* the bucket to blame for each thread's turn */
+    uint64_t now;      /* cycle in which the core issued last */
+    unsigned last;     /* thread that issued last */
+    unsigned working;  /* threads that have an op to issue */
+    core_thread *thread;
+    sim_blamed class_free[LRB_CLASS_COUNT];
+    sim_hierarchy *memory;
+    sim_predictor *predictor;
+    sim_slots prefetches; /* count 0: there may be none */
+
+    uint64_t ops[CORE_OPS], op_cycles[CORE_OPS];
+    uint64_t joins[LRB_CLASS_COUNT]; /* ops that joined another's cycle, by class */
+    uint64_t core_waited[SIM_BUCKETS], thread_waited[SIM_BUCKETS];
+    uint64_t core_gap, thread_gap, other_thread;
+    uint64_t began; /* the run */
+    sim_core_stats stats;
+};
+
+/** Set when a thread's next op can issue, and the bucket to blame. */
+static inline void core_set_turn(sim_core *s, unsigned t, sim_blamed ready)
+{
+    s->turn[t] = s->turn[t + s->threads] = sim_time_of(ready) * CORE_TURN;
+    s->why[t] = (uint8_t)(ready & 0xff);
+}
+
+/** Line of an event's address, scratch at the thread's own place. */
+static inline uint64_t core_line_of(const sim_core *s, const core_thread *h, const lrb_event *e)
+{
+    uint64_t address = e->aux;
+    return (address + (address >= LRB_SCRATCH_ADDRESS ? h->scratch : 0)) >> s->line_bits;
+}
+
+/** The data of the op that issues comes later than from the first level. */
+void core_delay_result(sim_core *s, core_thread *h, const sim_op_price *p, sim_fetch fetch);
+
+/** A branch issues. */
+void core_take_branch(sim_core *s, core_thread *h, const lrb_event *e);
+
+/** A prefetch, an eviction or a delay issues. */
+void core_take_hint(sim_core *s, core_thread *h, const lrb_event *e);
+
+/** An op of a lasting class issues: the class is busy for all threads, and the thread perhaps blocked. */
+void core_outlast(sim_core *s, core_thread *h, const sim_op_price *p);
+
+/** Put the cycles before `cycle` that a thread has spent into their buckets. */
+void core_settle(sim_core *s, core_thread *h, uint64_t cycle);
+
+#endif
