@@ -101,7 +101,8 @@ static void finish_cycles(run_result *result)
     } else if (result->options.model == RUN_ISSUE) {
         memcpy(result->ops, result->issue.ops, sizeof result->ops);
         result->memory_operands = result->issue.memory_operands;
-        result->idle_lanes = result->issue.idle_lanes;
+        for (int phase = 0; phase < SIM_MAX_PHASES; phase++)
+            result->idle_lanes += result->issue.phase_idle_lanes[phase];
         result->cycles = result->issue.cycles;
     }
 }

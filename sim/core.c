@@ -10,7 +10,7 @@ static void end_phase(sim_core *s, core_thread *h, uint32_t next)
     s->stats.phase_idle_lanes[h->phase] += h->idle_lanes;
     h->phase_start = h->cycles;
     h->vector_ops = h->idle_lanes = 0;
-    h->phase = next < SIM_MAX_PHASES ? next : SIM_MAX_PHASES - 1;
+    h->phase = h->at.phase = next < SIM_MAX_PHASES ? next : SIM_MAX_PHASES - 1;
 }
 
 static void end_region(core_thread *h, uint32_t next)
@@ -27,6 +27,8 @@ static void mark(sim_core *s, core_thread *h, const lrb_event *e)
         end_phase(s, h, e->aux);
     else if ((e->op & LRB_EVENT_ID) == LRB_OP_region)
         end_region(h, e->aux);
+    else if ((e->op & LRB_EVENT_ID) == LRB_OP_line)
+        h->at.site = e->aux;
 }
 
 /* Pass the markers before the next op; false: the tile has none left. */
@@ -50,6 +52,7 @@ static void begin_tile(sim_core *s, core_thread *h)
     h->late_until = h->stores_until = 0;
     h->partners = 0;
     h->phase = 0;
+    h->at = (sim_whereabouts){0};
     h->region = SIM_MAX_REGIONS;
     h->phase_start = h->region_start = h->cycles;
 }
@@ -165,12 +168,14 @@ static inline void access_memory(sim_core *s, core_thread *h, const sim_op_price
 }
 
 /* The thread's next op issues in this cycle. */
-static inline void perform(sim_core *s, core_thread *h)
+static inline void perform(sim_core *s, core_thread *h, bool joined)
 {
     const sim_op_price *p = h->price;
     const lrb_event *e = h->event;
     const uint32_t window = s->window;
     s->ops[e->op & (CORE_OPS - 1)]++;
+    if (s->profile)
+        sim_profile_issue(s->profile, &h->at, e->op & (CORE_OPS - 1), p->lanes, e->mask, joined);
     h->start = sim_end_of_cycle(h->now);
     h->partners = p->partners;
     sim_put_result(&h->results[h->next & (window - 1)], &p->latency, h->now);
@@ -230,6 +235,10 @@ static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycl
     s->core_gap += gap_end - next;
     s->core_waited[bucket] += cycle - gap_end;
     s->op_cycles[id] += idle + 1;
+    if (s->profile) {
+        sim_profile_wait(s->profile, &h->at, id, SIM_BUCKET_NONE, gap_end - next);
+        sim_profile_wait(s->profile, &h->at, id, bucket, cycle - gap_end);
+    }
     h->cycles += idle + 1;
     s->now = cycle;
     h->now = sim_blame(cycle, 0);
@@ -239,13 +248,13 @@ static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycl
 static inline sim_blamed issue(sim_core *s, core_thread *h)
 {
     const lrb_event *first = h->event;
-    perform(s, h);
+    perform(s, h, false);
     if (!find_op(s, h))
         return 0;
     sim_blamed at = earliest(s, h);
     if (joins(s, h, first, at)) {
-        s->joins[h->price->class_id]++;
-        perform(s, h);
+        s->joins[h->event->op & (CORE_OPS - 1)]++;
+        perform(s, h, true);
         h->partners = 0;
         at = find_op(s, h) ? earliest(s, h) : 0;
     }

@@ -19,6 +19,7 @@
 #include "sim/cycles.h"
 #include "sim/hierarchy.h"
 #include "sim/machine.h"
+#include "sim/profile.h"
 
 /* All members are plain sums, so that the stats of cores add up. */
 typedef struct sim_core_stats {
@@ -30,6 +31,7 @@ typedef struct sim_core_stats {
     uint64_t phase_vector_ops[SIM_MAX_PHASES]; /* vector ops of the phase */
     uint64_t phase_idle_lanes[SIM_MAX_PHASES]; /* lanes that their masks switched off */
     uint64_t ops[LRB_OP_COUNT];       /* ops issued; markers too, which take no cycle */
+    uint64_t op_issues[LRB_OP_COUNT]; /* cycles in which it issued, alone or first */
     uint64_t op_cycles[LRB_OP_COUNT]; /* core cycles that began with this op, or in which it was waited for */
     uint64_t memory_operands;     /* ops whose last source was in memory; loads and stores apart */
     uint64_t branches, mispredicted, btb_misses;
@@ -59,6 +61,9 @@ base_status sim_core_create(const sim_machine *machine, sim_core **out, base_err
 
 /** Free a core; sets the pointer to NULL. */
 void sim_core_destroy(sim_core **core);
+
+/** Charge the core's cycles to a profile as well, which must outlive the core or the next call; NULL: no more. */
+void sim_core_set_profile(sim_core *core, sim_profile *profile);
 
 /**
  * Simulate all tiles that the feed gives. Events must have ids of ops.

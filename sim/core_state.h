@@ -8,6 +8,7 @@
 #include "sim/branch.h"
 #include "sim/core.h"
 #include "sim/pipeline.h"
+#include "sim/profile_charge.h"
 #include "sim/slots.h"
 
 /* Turns leave room for a thread's place in the order of choice. */
@@ -47,6 +48,7 @@ typedef struct core_thread {
     bool ran; /* it has issued an op in this run */
     uint32_t phase, region;
     uint64_t regions[SIM_MAX_REGIONS + 1]; /* of the tile */
+    sim_whereabouts at;
 } core_thread;
 
 struct sim_core {
@@ -70,10 +72,11 @@ struct sim_core {
     sim_slots prefetches; /* count 0: there may be none */
 
     uint64_t ops[CORE_OPS], op_cycles[CORE_OPS];
-    uint64_t joins[LRB_CLASS_COUNT]; /* ops that joined another's cycle, by class */
+    uint64_t joins[CORE_OPS]; /* ops that joined another's cycle */
     uint64_t core_waited[SIM_BUCKETS], thread_waited[SIM_BUCKETS];
     uint64_t core_gap, thread_gap, other_thread;
     uint64_t began; /* the run */
+    sim_profile *profile; /* or NULL; not owned */
     sim_core_stats stats;
 };
 

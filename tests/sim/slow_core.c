@@ -331,6 +331,7 @@ static void charge(slow_core *s, slow_thread *t)
         core[t->issued && c < t->issued + s->machine->issue_gap ? BUCKET(gap) : t->last.bucket]++;
     s->stats->op_cycles[id_of(e)] += cycles;
     s->stats->issued_by_class[info_of(e)->class_id]++;
+    s->stats->op_issues[id_of(e)]++;
     s->stats->phase[t->phase] += cycles;
     t->tile->regions[t->region] += cycles;
 }

@@ -85,7 +85,7 @@ static void print_number(size_t word, uint64_t fast, uint64_t slow)
         MEMBER(threads.l2), MEMBER(threads.memory), MEMBER(threads.store_forward), MEMBER(threads.busy), MEMBER(threads.blocked),
         MEMBER(threads.delay), MEMBER(threads.mispredict), MEMBER(threads.btb_miss), MEMBER(threads.misses),
         MEMBER(threads.prefetches), MEMBER(threads.other_thread), MEMBER(threads.no_work), MEMBER(issued_by_class), MEMBER(phase),
-        MEMBER(phase_vector_ops), MEMBER(phase_idle_lanes), MEMBER(ops), MEMBER(op_cycles), MEMBER(memory_operands),
+        MEMBER(phase_vector_ops), MEMBER(phase_idle_lanes), MEMBER(ops), MEMBER(op_issues), MEMBER(op_cycles), MEMBER(memory_operands),
         MEMBER(branches), MEMBER(mispredicted), MEMBER(btb_misses), MEMBER(bank_conflicts), MEMBER(memory),
     };
 #undef MEMBER
@@ -157,6 +157,7 @@ static void assert_sums(const sim_machine *machine, const work *w, const sim_cor
         assert_true(((const uint64_t *)&s->core)[i] <= s->cycles && ((const uint64_t *)&s->threads)[i] <= s->cycles * machine->threads);
     assert_int_equal(sum(s->phase, SIM_MAX_PHASES), s->cycles);
     assert_int_equal(sum(s->op_cycles, LRB_OP_COUNT), s->cycles);
+    assert_int_equal(sum(s->op_issues, LRB_OP_COUNT), s->core.issued_one + s->core.issued_pair);
     assert_int_equal(sum(s->issued_by_class, LRB_CLASS_COUNT), s->core.issued_one + s->core.issued_pair);
     assert_int_equal(regions, s->cycles);
 }
