@@ -49,6 +49,15 @@ static stream record(kernel_tile_fn *tile, const kernel_job *job, uint32_t numbe
 /* Does the line, as the sources have it, hold the name of the op? Forms add to the name in front and behind. */
 static void check_line(uint32_t site, unsigned id)
 {
+    static struct {
+        uint32_t site;
+        unsigned id;
+    } checked[4096]; /* most have been looked at before */
+    size_t place = (site * 31 + id) % (sizeof checked / sizeof *checked);
+    if (checked[place].site == site && checked[place].id == id)
+        return;
+    checked[place].site = site;
+    checked[place].id = id;
     const kernel_source *source = kernel_source_find(site >> 16);
     assert_non_null(source);
     kernel_source_line line = kernel_source_at(source, site & 0xffff);
