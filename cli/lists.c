@@ -1,4 +1,4 @@
-/* lanetrace kernels, scenes, machines, ops, replay: what there is. */
+/* lanetrace kernels, scenes, machines, ops: what there is. */
 #include <stdio.h>
 #include <string.h>
 
@@ -195,13 +195,4 @@ int command_ops(int argc, char **argv)
         report_table_add_text(t, op->source);
     }
     return write_list(t, a.json, &err);
-}
-
-int command_replay(int argc, char **argv)
-{
-    base_error err = {0};
-    list_arguments a = {.err = &err, .takes_name = true};
-    if (parse_list(argc, argv, "TRACE", "Time a recorded trace on another machine: not in this version, which records none.", &a) == BASE_OK)
-        base_fail(&err, BASE_ERR_UNSUPPORTED, "replay", "traces are not in this version");
-    return command_fail(&err);
 }

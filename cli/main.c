@@ -12,7 +12,7 @@ static const struct subcommand {
     {"run-kernel", "KERNEL --scene SCENE", "one kernel, one scene: statistics and pictures", command_run_kernel},
     {"report", "[SUITE...] [--out DIR]", "the papers' tables, measured, beside the papers' values", command_report},
     {"regress", "[SUITE...] [--update]", "counts, ops and cycles against the stored baselines", command_regress},
-    {"replay", "TRACE --machine M", "time a recorded trace on another machine (not in this version)", command_replay},
+    {"replay", "TRACE [--machine M]...", "time a recorded trace on other machines, or export it", command_replay},
     {"kernels", "[--json]", "the kernels there are", command_kernels},
     {"scenes", "[--json]", "the built-in scenes there are", command_scenes},
     {"machines", "[NAME] [--json]", "the machine descriptions there are, and their numbers", command_machines},

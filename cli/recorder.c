@@ -37,34 +37,77 @@ static void append(void *user, const lrb_event *events, uint32_t count)
     r->count += count;
 }
 
-base_status recorder_create(const kernel_info *kernel, const kernel_job *job, const sim_machine *machine, kernel_counts *tile_counts,
-                            recorder *out, base_error *err)
+base_status recorder_create(const recorder_input *input, const sim_machine *machine, unsigned worker, recorder *out, base_error *err)
 {
-    *out = (recorder){.kernel = kernel, .job = job, .tile_counts = tile_counts};
+    *out = (recorder){.input = input, .worker = worker};
     base_status status = sim_chain_meter_create(machine, &out->meter, err);
-    return status == BASE_OK ? lrb_ctx_create(append, out, &out->ctx, err) : status;
+    if (status != BASE_OK)
+        return status;
+    return input->replayed ? trace_source_create(input->replayed, &out->source, err) : lrb_ctx_create(append, out, &out->ctx, err);
 }
 
 void recorder_destroy(recorder *r)
 {
     lrb_ctx_destroy(&r->ctx);
+    trace_source_destroy(&r->source);
     sim_chain_meter_destroy(&r->meter);
+}
+
+static base_status out_of_memory(base_error *err)
+{
+    return base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory for the events of a tile");
+}
+
+static base_status read_tile(recorder *r, uint32_t tile, recording *into, base_error *err)
+{
+    uint32_t count;
+    base_status status = trace_source_seek(r->source, tile, err);
+    if (status == BASE_OK && !grow(into, trace_reader_tile_events(r->input->replayed, tile)))
+        return out_of_memory(err);
+    if (status == BASE_OK)
+        status = trace_source_read(r->source, into->events, trace_reader_tile_events(r->input->replayed, tile), &count, err);
+    if (status == BASE_OK)
+        into->count = count;
+    return status;
+}
+
+/* Give a recorded tile to the trace. */
+static void record_trace(const recorder *r, uint32_t tile, const recording *recorded)
+{
+    run_trace *trace = r->input->trace;
+    run_trace_begin_tile(trace, r->worker);
+    for (size_t i = 0; i < recorded->count; i += LRB_BATCH) {
+        size_t count = recorded->count - i;
+        trace_encoder_events(trace->workers[r->worker].encoder, recorded->events + i, (uint32_t)(count < LRB_BATCH ? count : LRB_BATCH));
+    }
+    run_trace_end_tile(trace, r->worker, tile);
+}
+
+static base_status record_tile(recorder *r, uint32_t tile, recording *into, base_error *err)
+{
+    const recorder_input *input = r->input;
+    kernel_counts counts = {{0}};
+    lrb_ctx_begin(r->ctx);
+    input->kernel->tile[LRB_RECORD](r->ctx, input->job, tile, &counts);
+    lrb_ctx_end(r->ctx);
+    for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
+        r->counts.n[i] += counts.n[i];
+    if (input->tile_counts)
+        input->tile_counts[tile] = counts;
+    if (into->failed)
+        return out_of_memory(err);
+    if (input->trace->writer)
+        record_trace(r, tile, into);
+    return BASE_OK;
 }
 
 base_status recorder_tile(recorder *r, size_t tile, recording *into, base_error *err)
 {
-    kernel_counts counts = {{0}};
     r->into = into;
     into->count = 0;
     into->failed = !grow(into, 1);
-    lrb_ctx_begin(r->ctx);
-    r->kernel->tile[LRB_RECORD](r->ctx, r->job, (uint32_t)tile, &counts);
-    lrb_ctx_end(r->ctx);
-    for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
-        r->counts.n[i] += counts.n[i];
-    if (r->tile_counts)
-        r->tile_counts[tile] = counts;
-    if (!into->failed)
+    base_status status = r->source ? read_tile(r, (uint32_t)tile, into, err) : record_tile(r, (uint32_t)tile, into, err);
+    if (status == BASE_OK)
         sim_chain_meter_tile(r->meter, into->events, into->count, &r->chains);
-    return into->failed ? base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory for the events of a tile") : BASE_OK;
+    return status;
 }

@@ -1,12 +1,15 @@
-/* Tiles recorded for simulated cores: a host thread runs the kernel at LRB_RECORD and keeps the tile's events. */
+/* Tiles for simulated cores: a host thread runs the kernel at LRB_RECORD and keeps the tile's events, or reads them from a trace. */
 #ifndef CLI_RECORDER_H
 #define CLI_RECORDER_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "cli/run_trace.h"
 #include "kernels/kernel.h"
 #include "sim/bounds.h"
+#include "sim/observer.h"
+#include "traces/reader.h"
 
 /* The events of a tile; the buffer is used again for the next one. */
 typedef struct recording {
@@ -18,26 +21,48 @@ typedef struct recording {
 /** Free what a recording owns. */
 void recording_free(recording *r);
 
+/* Someone who looks on while a core simulates tiles. */
+typedef struct core_watch {
+    void (*begin_tile)(void *user, unsigned thread, size_t tile);
+    void (*end_tile)(void *user, unsigned thread);
+    sim_observer *observer;
+    void *user; /* of all three */
+} core_watch;
+
+/* Where tiles come from, and what becomes of them besides. */
+typedef struct recorder_input {
+    size_t tiles;
+    const kernel_info *kernel; /* of a run, which also has a job */
+    const kernel_job *job;
+    kernel_counts *tile_counts; /* out: by tile, or NULL */
+    run_trace *trace;           /* takes what the kernel records; its writer may be NULL */
+    const trace_reader *replayed; /* of a replay: the trace; none of the above then */
+    const core_watch *watch;      /* or NULL; of a single core */
+} recorder_input;
+
 /* What one host thread records with. */
 typedef struct recorder {
-    const kernel_info *kernel;
-    const kernel_job *job;
-    lrb_ctx *ctx;
+    const recorder_input *input;
+    unsigned worker; /* number of the host thread */
+    lrb_ctx *ctx;    /* of a run */
+    trace_source *source; /* of a replay */
     kernel_counts counts; /* of all tiles so far */
-    kernel_counts *tile_counts; /* by tile, or NULL; not owned */
     sim_chain_meter *meter;
     sim_chains chains;    /* of all tiles so far */
     recording *into;
 } recorder;
 
-/** Errors: BASE_ERR_NOMEM. The recorder must not move until recorder_destroy, which is allowed after a failure. */
-base_status recorder_create(const kernel_info *kernel, const kernel_job *job, const sim_machine *machine, kernel_counts *tile_counts,
-                            recorder *out, base_error *err);
+/**
+ * @param input, machine  not owned; must outlive the recorder
+ *
+ * Errors: BASE_ERR_NOMEM. The recorder must not move until recorder_destroy, which is allowed after a failure.
+ */
+base_status recorder_create(const recorder_input *input, const sim_machine *machine, unsigned worker, recorder *out, base_error *err);
 
 /** Free what a recorder owns. */
 void recorder_destroy(recorder *r);
 
-/** Trace a tile into a recording. Errors: BASE_ERR_NOMEM. */
+/** Trace a tile into a recording, or read it. Errors: BASE_ERR_NOMEM; those of trace_source_seek and trace_source_read. */
 base_status recorder_tile(recorder *r, size_t tile, recording *into, base_error *err);
 
 #endif

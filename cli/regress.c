@@ -9,7 +9,7 @@
 #include "cli/run.h"
 #include "cli/stats.h"
 #include "lrbni/base/parallel.h"
-#include "reports/output_file.h"
+#include "lrbni/base/output_file.h"
 #include "scene/builtin.h"
 
 enum { KEY_UPDATE = 256, KEY_BASELINES, KEY_JOBS, PATH_BYTES = 4096, SIZE = 256, FIELD_BYTES = 160 };
@@ -197,18 +197,18 @@ static comparison compare_runs(const json_t *stored, const json_t *measured)
 
 static base_status store(const char *path, json_t *runs, base_error *err)
 {
-    report_output out;
-    base_status status = report_output_begin(path, false, &out, err);
+    base_output out;
+    base_status status = base_output_begin(path, false, &out, err);
     if (status != BASE_OK)
         return status;
     json_t *baseline = json_pack("{s:s, s:s, s:O}", "schema", "lanetrace-baseline-1", "suite", suite_name, "runs", runs);
     status = report_json_write(baseline, out.stream, err);
     json_decref(baseline);
     if (status != BASE_OK) {
-        report_output_abort(&out);
+        base_output_abort(&out);
         return status;
     }
-    return report_output_commit(&out, err);
+    return base_output_commit(&out, err);
 }
 
 /* Read a baseline; *runs is a new reference. */

@@ -15,7 +15,7 @@
 #include "reports/heat_map.h"
 #include "reports/html_page.h"
 #include "reports/image_writer.h"
-#include "reports/output_file.h"
+#include "lrbni/base/output_file.h"
 #include "reports/views/packet_frusta.h"
 #include "scene/builtin.h"
 #include "sim/count.h"
@@ -179,17 +179,17 @@ typedef base_status write_fn(const void *what, FILE *out, base_error *err);
 static base_status write_file(const suite *s, const char *rest, write_fn *write, const void *what, base_error *err)
 {
     char path[PATH_BYTES];
-    report_output out;
+    base_output out;
     path_in(s, path, suite_name, rest);
-    base_status status = report_output_begin(path, false, &out, err);
+    base_status status = base_output_begin(path, false, &out, err);
     if (status != BASE_OK)
         return status;
     status = write(what, out.stream, err);
     if (status != BASE_OK) {
-        report_output_abort(&out);
+        base_output_abort(&out);
         return status;
     }
-    return report_output_commit(&out, err);
+    return base_output_commit(&out, err);
 }
 
 typedef struct two_tables {

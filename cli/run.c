@@ -7,6 +7,7 @@
 #include "cli/clock.h"
 #include "cli/progress.h"
 #include "cli/run_core.h"
+#include "cli/run_trace.h"
 #include "lrbni/base/parallel.h"
 #include "sim/count.h"
 
@@ -26,6 +27,8 @@ base_status run_model_find(const char *name, run_model *out, base_error *err)
 typedef struct run_worker {
     lrb_ctx *ctx;
     sim_issue *issue;
+    trace_encoder *encoder; /* of the run's trace, or NULL */
+    sim_op_counts counted;  /* RUN_COUNT while a trace is recorded: what the kernel does not count then */
     kernel_counts counts;
 } run_worker;
 
@@ -33,41 +36,82 @@ typedef struct run_state {
     run_result *result;
     run_worker *workers;
     progress *progress;
+    run_trace *trace; /* that takes what is recorded; its writer NULL: nothing is */
 } run_state;
 
-/* Cycles of a tile by the count model: the whole tile's, for the ops since `before`. */
-static double count_tile_cycles(const run_state *r, const lrb_ctx *ctx, const uint64_t *before)
+/* Events for the trace, and for the model where it takes events. */
+static void record_issue(void *worker, const lrb_event *events, uint32_t count)
 {
-    uint64_t ops[LRB_OP_COUNT];
-    for (int i = 0; i < LRB_OP_COUNT; i++)
-        ops[i] = ctx->ops[i] - before[i];
-    return (double)sim_count_half_cycles(r->result->machine, ops) / 2;
+    run_worker *w = worker;
+    trace_encoder_events(w->encoder, events, count);
+    sim_issue_events(w->issue, events, count);
 }
 
-static void trace_tile(void *user, size_t tile, unsigned worker_index)
+static void record_count(void *worker, const lrb_event *events, uint32_t count)
+{
+    run_worker *w = worker;
+    trace_encoder_events(w->encoder, events, count);
+    sim_count_events(&w->counted, events, count);
+}
+
+/* The ops that a worker has counted: the kernel did, or the sink. */
+static sim_op_counts counted_ops(const run_worker *w)
+{
+    sim_op_counts sum = w->counted;
+    for (int i = 0; i < LRB_OP_COUNT; i++)
+        sum.ops[i] += w->ctx->ops[i];
+    sum.memory_operands += w->ctx->memory_operands;
+    sum.idle_lanes += w->ctx->idle_lanes;
+    return sum;
+}
+
+/* Cycles of a tile by the count model: the whole tile's, for the ops since `before`. */
+static double count_tile_cycles(const run_state *r, const run_worker *w, const sim_op_counts *before)
+{
+    sim_op_counts now = counted_ops(w);
+    for (int i = 0; i < LRB_OP_COUNT; i++)
+        now.ops[i] -= before->ops[i];
+    return (double)sim_count_half_cycles(r->result->machine, now.ops) / 2;
+}
+
+/* Run the kernel on a tile at the level that the model needs, and that the trace needs. */
+static void run_tile(run_state *r, uint32_t tile, unsigned worker, kernel_counts *counts)
+{
+    static const int levels[RUN_MODELS] = {[RUN_NATIVE] = LRB_NATIVE, [RUN_COUNT] = LRB_COUNT, [RUN_ISSUE] = LRB_RECORD};
+    const run_options *o = &r->result->options;
+    const bool traced = r->trace->writer != NULL;
+    lrb_ctx *ctx = r->workers[worker].ctx;
+    if (traced)
+        run_trace_begin_tile(r->trace, worker);
+    o->kernel->tile[traced ? LRB_RECORD : levels[o->model]](ctx, r->result->job, tile, counts);
+    lrb_ctx_end(ctx);
+    if (traced)
+        run_trace_end_tile(r->trace, worker, tile);
+}
+
+static void run_one_tile(void *user, size_t tile, unsigned worker_index)
 {
     run_state *r = user;
     run_result *result = r->result;
     run_worker *w = &r->workers[worker_index];
     double *cycles = result->region_cycles ? result->region_cycles + tile * (SIM_MAX_REGIONS + 1) : NULL;
     kernel_counts counts = {{0}};
-    kernel_tile_fn *const *levels = result->options.kernel->tile;
-    uint64_t regions[SIM_MAX_REGIONS + 1], ops_before[LRB_OP_COUNT];
+    uint64_t regions[SIM_MAX_REGIONS + 1];
+    sim_op_counts before;
     switch (result->options.model) {
     case RUN_NATIVE:
-        levels[LRB_NATIVE](w->ctx, result->job, (uint32_t)tile, &counts);
+        run_tile(r, (uint32_t)tile, worker_index, &counts);
         break;
     case RUN_COUNT:
-        memcpy(ops_before, w->ctx->ops, sizeof ops_before);
-        levels[LRB_COUNT](w->ctx, result->job, (uint32_t)tile, &counts);
-        cycles[SIM_MAX_REGIONS] = count_tile_cycles(r, w->ctx, ops_before);
+        before = counted_ops(w);
+        run_tile(r, (uint32_t)tile, worker_index, &counts);
+        cycles[SIM_MAX_REGIONS] = count_tile_cycles(r, w, &before);
         break;
     case RUN_ISSUE:
     case RUN_CORE: /* run_core does that */
     case RUN_MODELS:
         sim_issue_begin(w->issue);
-        levels[LRB_RECORD](w->ctx, result->job, (uint32_t)tile, &counts);
-        lrb_ctx_end(w->ctx);
+        run_tile(r, (uint32_t)tile, worker_index, &counts);
         sim_issue_end(w->issue, regions);
         for (int i = 0; i <= SIM_MAX_REGIONS; i++)
             cycles[i] = (double)regions[i];
@@ -85,16 +129,17 @@ static void collect_worker(run_result *result, const run_worker *w)
     for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
         result->counts.n[i] += w->counts.n[i];
     if (result->options.model == RUN_COUNT) {
+        sim_op_counts counted = counted_ops(w);
         for (int i = 0; i < LRB_OP_COUNT; i++)
-            result->ops[i] += w->ctx->ops[i];
-        result->memory_operands += w->ctx->memory_operands;
-        result->idle_lanes += w->ctx->idle_lanes;
+            result->ops[i] += counted.ops[i];
+        result->memory_operands += counted.memory_operands;
+        result->idle_lanes += counted.idle_lanes;
     } else if (result->options.model == RUN_ISSUE) {
         sim_issue_stats_add(&result->issue, sim_issue_get(w->issue));
     }
 }
 
-static void finish_cycles(run_result *result)
+void run_finish_cycles(run_result *result)
 {
     if (result->options.model == RUN_COUNT) {
         result->cycles = (sim_count_half_cycles(result->machine, result->ops) + 1) / 2;
@@ -107,6 +152,21 @@ static void finish_cycles(run_result *result)
     }
 }
 
+/* A context whose events go where the model and the trace want them. */
+static base_status create_ctx(const run_state *r, run_worker *w, base_error *err)
+{
+    if (!w->encoder)
+        return lrb_ctx_create(sim_issue_events, w->issue, &w->ctx, err);
+    switch (r->result->options.model) {
+    case RUN_NATIVE:
+        return lrb_ctx_create(trace_encoder_events, w->encoder, &w->ctx, err);
+    case RUN_COUNT:
+        return lrb_ctx_create(record_count, w, &w->ctx, err);
+    default:
+        return lrb_ctx_create(record_issue, w, &w->ctx, err);
+    }
+}
+
 static base_status create_workers(run_state *r, unsigned jobs, base_error *err)
 {
     r->workers = calloc(jobs, sizeof *r->workers);
@@ -114,8 +174,10 @@ static base_status create_workers(run_state *r, unsigned jobs, base_error *err)
         return base_fail(err, BASE_ERR_NOMEM, "--jobs", "out of memory for %u threads", jobs);
     for (unsigned i = 0; i < jobs; i++) {
         base_status status = sim_issue_create(r->result->machine, &r->workers[i].issue, err);
+        if (r->trace->writer)
+            r->workers[i].encoder = r->trace->workers[i].encoder;
         if (status == BASE_OK)
-            status = lrb_ctx_create(sim_issue_events, r->workers[i].issue, &r->workers[i].ctx, err);
+            status = create_ctx(r, &r->workers[i], err);
         if (status != BASE_OK)
             return status;
     }
@@ -132,16 +194,16 @@ static void destroy_workers(run_state *r, unsigned jobs)
 }
 
 /* Trace the tiles one by one: all models but core. */
-static base_status trace_tiles(run_result *result, progress *bar, base_error *err)
+static base_status trace_tiles(run_result *result, run_trace *recorded, progress *bar, base_error *err)
 {
     const unsigned jobs = result->options.jobs;
-    run_state r = {.result = result, .progress = bar};
+    run_state r = {.result = result, .progress = bar, .trace = recorded};
     base_status status = create_workers(&r, jobs, err);
     if (status == BASE_OK) {
-        base_parallel_for(jobs, kernel_job_tiles(result->job), trace_tile, &r);
+        base_parallel_for(jobs, kernel_job_tiles(result->job), run_one_tile, &r);
         for (unsigned i = 0; i < jobs; i++)
             collect_worker(result, &r.workers[i]);
-        finish_cycles(result);
+        run_finish_cycles(result);
     }
     destroy_workers(&r, jobs);
     return status;
@@ -157,17 +219,26 @@ static base_status trace(run_result *result, base_error *err)
         result->tile_counts = calloc(tiles, sizeof *result->tile_counts);
     if ((o->model != RUN_NATIVE && !result->region_cycles) || (o->keep_tile_counts && !result->tile_counts))
         return base_fail(err, BASE_ERR_NOMEM, "--size", "out of memory for %ux%u pixels", o->width, o->height);
-    progress bar = progress_begin(o->kernel->name, tiles, o->progress);
-    double start = clock_seconds();
-    base_status status = o->model == RUN_CORE ? run_core(result, &bar, err) : trace_tiles(result, &bar, err);
-    result->kernel_seconds = clock_seconds() - start;
-    progress_end(&bar);
+    run_trace recorded = {0};
+    base_status status = run_trace_begin(result, &recorded, err);
+    if (status == BASE_OK) {
+        progress bar = progress_begin(o->kernel->name, tiles, o->progress);
+        double start = clock_seconds();
+        recorder_input input = {.tiles = tiles, .kernel = o->kernel, .job = result->job, .tile_counts = result->tile_counts,
+                                .trace = &recorded};
+        status = o->model == RUN_CORE ? run_core(result, &input, &bar, err) : trace_tiles(result, &recorded, &bar, err);
+        result->kernel_seconds = clock_seconds() - start;
+        progress_end(&bar);
+    }
+    if (status == BASE_OK)
+        status = run_trace_commit(&recorded, result, err);
+    run_trace_destroy(&recorded);
     return status;
 }
 
 base_status run_kernel(const scene *s, const sim_machine *machine, const run_options *options, run_result *out, base_error *err)
 {
-    *out = (run_result){.options = *options, .scene = s, .machine = machine};
+    *out = (run_result){.options = *options, .scene = s, .scene_name = s->name, .triangle_count = s->triangle_count, .machine = machine};
     bvh_options tree_options = bvh_options_default();
     tree_options.max_leaf = options->params.max_leaf;
     tree_options.bins = options->params.bins;

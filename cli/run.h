@@ -30,16 +30,20 @@ typedef struct run_options {
     unsigned jobs;
     bool keep_tile_counts; /* fill tile_counts of the result */
     bool progress;         /* a bar on stderr */
+    const char *trace;     /* file to record the events to, or NULL */
 } run_options;
 
-/* Everything that a run has found. Owns all but the scene and the machine. */
+/* Everything that a run has found, or a replay of its trace. Owns all but the scene and the machine. */
 typedef struct run_result {
     run_options options;
-    const scene *scene;
-    const sim_machine *machine;
+    const char *scene_name;
+    size_t triangle_count;
+    const struct json_t *traced; /* of a replay: what the trace says was run; belongs to the caller. NULL: a run */
+    const scene *scene;          /* this and the next three: of a run only */
     const scene_camera *camera;
     bvh *tree;
     kernel_job *job; /* with the frame: nearest hits by pixel */
+    const sim_machine *machine;
     kernel_counts counts;
     uint64_t ops[LRB_OP_COUNT]; /* all models but RUN_NATIVE */
     uint64_t memory_operands, idle_lanes;
@@ -58,9 +62,12 @@ typedef struct run_result {
  * @param s, machine  owned by the caller; must outlive the result
  * @param out         destroy with run_result_destroy, also after a failure
  *
- * Errors: those of bvh_build, kernel_job_create, scene_find_camera; BASE_ERR_NOMEM.
+ * Errors: those of bvh_build, kernel_job_create, scene_find_camera and of the trace's writer; BASE_ERR_NOMEM.
  */
 base_status run_kernel(const scene *s, const sim_machine *machine, const run_options *options, run_result *out, base_error *err);
+
+/** What follows from the sums over the tiles: cycles from `ops` (RUN_COUNT), or all of them from `issue` (RUN_ISSUE). */
+void run_finish_cycles(run_result *result);
 
 /** Free what a result owns. */
 void run_result_destroy(run_result *result);

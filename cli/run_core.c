@@ -11,6 +11,8 @@
 /* One simulated core and the tiles that are its. */
 typedef struct core_run {
     run_result *result;
+    size_t tiles;
+    const core_watch *watch; /* or NULL */
     progress *bar;
     unsigned worker;
     size_t next, step;      /* its next tile, and how far the one after it is */
@@ -30,7 +32,7 @@ static base_status next_tile(void *user, unsigned thread, const lrb_event **even
     if (r->taken[thread])
         record_ahead_release(r->ahead, r->taken[thread]);
     r->taken[thread] = NULL;
-    if (r->next >= kernel_job_tiles(r->result->job))
+    if (r->next >= r->tiles)
         return BASE_OK;
     r->tile[thread] = r->next;
     r->next += r->step;
@@ -44,15 +46,19 @@ static base_status next_tile(void *user, unsigned thread, const lrb_event **even
         return status;
     *events = tile->events;
     *count = tile->count;
+    if (r->watch)
+        r->watch->begin_tile(r->watch->user, thread, r->tile[thread]);
     return BASE_OK;
 }
 
 static void tile_done(void *user, unsigned thread, const uint64_t regions[SIM_MAX_REGIONS + 1])
 {
     core_run *r = user;
-    double *cycles = r->result->region_cycles + r->tile[thread] * (SIM_MAX_REGIONS + 1);
-    for (int i = 0; i <= SIM_MAX_REGIONS; i++)
-        cycles[i] = (double)regions[i];
+    double *cycles = r->result->region_cycles;
+    for (int i = 0; cycles && i <= SIM_MAX_REGIONS; i++)
+        cycles[r->tile[thread] * (SIM_MAX_REGIONS + 1) + i] = (double)regions[i];
+    if (r->watch)
+        r->watch->end_tile(r->watch->user, thread);
     progress_step(r->bar, r->worker);
 }
 
@@ -70,6 +76,8 @@ static base_status simulate(core_run *r, sim_core_stats *stats, base_error *err)
         status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     if (status == BASE_OK)
         status = sim_core_create(r->result->machine, &core, err);
+    if (status == BASE_OK && r->watch)
+        sim_core_observe(core, r->watch->observer, r->watch->user);
     if (status == BASE_OK)
         status = sim_core_run(core, &feed, err);
     if (status == BASE_OK)
@@ -86,6 +94,7 @@ static base_status simulate(core_run *r, sim_core_stats *stats, base_error *err)
 /* All simulated cores of a run. */
 typedef struct chip {
     run_result *result;
+    const recorder_input *input;
     progress *bar;
     recorder *recorders; /* by host thread */
     sim_core_stats *stats; /* by core */
@@ -95,18 +104,18 @@ typedef struct chip {
 static void simulate_core(void *user, size_t core, unsigned worker)
 {
     chip *c = user;
-    core_run r = {.result = c->result, .bar = c->bar, .worker = worker, .next = core, .step = c->result->machine->cores,
-                  .recorder = &c->recorders[worker]};
+    core_run r = {.result = c->result, .tiles = c->input->tiles, .bar = c->bar, .worker = worker, .next = core,
+                  .step = c->result->machine->cores, .recorder = &c->recorders[worker]};
     simulate(&r, &c->stats[core], &c->errors[core]);
 }
 
 /* One core here, its tiles recorded ahead by the other host threads. */
 static base_status simulate_single(chip *c, unsigned jobs, base_error *err)
 {
-    core_run r = {.result = c->result, .bar = c->bar, .step = 1, .recorder = &c->recorders[0]};
+    core_run r = {.result = c->result, .tiles = c->input->tiles, .watch = c->input->watch, .bar = c->bar, .step = 1, .recorder = &c->recorders[0]};
     base_status status = BASE_OK;
     if (jobs > 1)
-        status = record_ahead_start(c->recorders + 1, jobs - 1, kernel_job_tiles(c->result->job), c->result->machine->threads, &r.ahead, err);
+        status = record_ahead_start(c->recorders + 1, jobs - 1, c->input->tiles, c->result->machine->threads, &r.ahead, err);
     if (status == BASE_OK)
         status = simulate(&r, c->stats, err);
     record_ahead_stop(&r.ahead);
@@ -146,10 +155,10 @@ static void collect(const chip *c, unsigned jobs)
         result->idle_lanes += result->core.phase_idle_lanes[phase];
 }
 
-base_status run_core(run_result *result, progress *bar, base_error *err)
+base_status run_core(run_result *result, const recorder_input *input, progress *bar, base_error *err)
 {
     const unsigned jobs = result->options.jobs, cores = result->machine->cores;
-    chip c = {.result = result, .bar = bar};
+    chip c = {.result = result, .input = input, .bar = bar};
     c.recorders = calloc(jobs, sizeof *c.recorders);
     c.stats = calloc(cores, sizeof *c.stats);
     c.errors = calloc(cores, sizeof *c.errors);
@@ -157,7 +166,7 @@ base_status run_core(run_result *result, progress *bar, base_error *err)
     if (!c.recorders || !c.stats || !c.errors)
         status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     for (unsigned i = 0; status == BASE_OK && i < jobs; i++)
-        status = recorder_create(result->options.kernel, result->job, result->machine, result->tile_counts, &c.recorders[i], err);
+        status = recorder_create(input, result->machine, i, &c.recorders[i], err);
     if (status == BASE_OK)
         status = simulate_all(&c, jobs, err);
     if (status == BASE_OK)

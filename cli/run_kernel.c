@@ -9,7 +9,7 @@
 #include "cli/stats.h"
 #include "lrbni/base/parallel.h"
 #include "reports/image_writer.h"
-#include "reports/output_file.h"
+#include "lrbni/base/output_file.h"
 
 enum {
     KEY_SCENE = 256, KEY_CAMERA, KEY_SIZE, KEY_SAMPLES, KEY_LIGHT_SCALE, KEY_MODEL, KEY_MACHINE, KEY_SET, KEY_PARAM,
@@ -33,13 +33,13 @@ static const struct argp_option option_table[] = {
     {"aov", KEY_AOV, "FILE.exr", 0, "per-pixel results: Z, prim, U, V", 3},
     {"heatmap", KEY_HEATMAP, "FILE", 0, "simulated cycles per pixel, as a picture", 3},
     {"heatmap-of", KEY_HEATMAP_OF, "COUNTER", 0, "make --heatmap of a counter instead, as aabb_tests", 3},
-    {"trace", KEY_TRACE, "FILE.ltr", 0, "record the event stream (not in this version)", 3},
+    {"trace", KEY_TRACE, "FILE.ltr", 0, "record the event stream, for lanetrace replay", 3},
     {0},
 };
 
 typedef struct arguments {
     base_error *err;
-    const char *kernel, *scene, *camera, *size, *model, *machine, *jobs, *stats, *image, *aov, *heatmap, *heatmap_of;
+    const char *kernel, *scene, *camera, *size, *model, *machine, *jobs, *stats, *image, *aov, *heatmap, *heatmap_of, *trace;
     const char *light_scale, *samples, *error;
     command_list sets, params;
 } arguments;
@@ -64,9 +64,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_HEATMAP_OF: a->heatmap_of = text; return 0;
     case KEY_SET: return command_list_add(&a->sets, text, a->err) == BASE_OK ? 0 : ENOMEM;
     case KEY_PARAM: return command_list_add(&a->params, text, a->err) == BASE_OK ? 0 : ENOMEM;
-    case KEY_TRACE:
-        base_fail(a->err, BASE_ERR_UNSUPPORTED, "--trace", "recording traces is not in this version");
-        return EINVAL;
+    case KEY_TRACE: a->trace = text; return 0;
     case ARGP_KEY_ARG:
         if (a->kernel) {
             base_fail(a->err, BASE_ERR_USAGE, text, "one kernel at a time: '%s' was given already", a->kernel);
@@ -145,15 +143,15 @@ static base_status plan_heat_map(const arguments *a, plan *p, base_error *err)
 /* A file that cannot be written is found before the work, not after it. */
 static base_status check_outputs(const arguments *a, base_error *err)
 {
-    const char *paths[] = {a->stats, a->image, a->aov, a->heatmap};
+    const char *paths[] = {a->stats, a->image, a->aov, a->heatmap, a->trace};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
-        report_output out;
+        base_output out;
         if (!paths[i] || (i == 0 && strcmp(paths[i], "-") == 0))
             continue;
-        base_status status = report_output_begin(paths[i], false, &out, err);
+        base_status status = base_output_begin(paths[i], false, &out, err);
         if (status != BASE_OK)
             return status;
-        report_output_abort(&out);
+        base_output_abort(&out);
     }
     return BASE_OK;
 }
@@ -183,14 +181,15 @@ static base_status make_plan(const arguments *a, plan *p, base_error *err)
     if (status == BASE_OK)
         status = check_outputs(a, err);
     p->run.camera = a->camera;
+    p->run.trace = a->trace;
     p->run.progress = true;
     return status;
 }
 
 static base_status write_stats(const arguments *a, const plan *p, const run_result *result, base_error *err)
 {
-    report_output out;
-    base_status status = report_output_begin(a->stats ? a->stats : "-", true, &out, err);
+    base_output out;
+    base_status status = base_output_begin(a->stats ? a->stats : "-", true, &out, err);
     if (status != BASE_OK)
         return status;
     if (a->stats) {
@@ -203,10 +202,10 @@ static base_status write_stats(const arguments *a, const plan *p, const run_resu
         report_table_destroy(&table);
     }
     if (status != BASE_OK) {
-        report_output_abort(&out);
+        base_output_abort(&out);
         return status;
     }
-    return report_output_commit(&out, err);
+    return base_output_commit(&out, err);
 }
 
 static base_status write_picture(const char *path, report_image *image, base_status made, base_error *err)

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "cli/identity.h"
 #include "cli/version.h"
 
 /* Decimals that reals keep in JSON. */
@@ -18,54 +19,6 @@ static json_t *hash_json(uint64_t hash)
 }
 
 static json_t *integer(uint64_t value) { return json_integer((json_int_t)value); }
-
-static json_t *params_json(const kernel_params *params)
-{
-    size_t count;
-    const kernel_param_info *table = kernel_param_list(&count);
-    json_t *object = json_object();
-    for (size_t i = 0; i < count; i++)
-        json_object_set_new(object, table[i].name, integer(*(const unsigned *)((const char *)params + table[i].offset)));
-    return object;
-}
-
-static json_t *scene_json(const run_result *r)
-{
-    const bvh *tree = r->tree;
-    json_t *accel = json_object(), *object = json_object();
-    json_object_set_new(accel, "kind", json_string("bvh"));
-    json_object_set_new(accel, "nodes", integer(tree->inner_count + tree->leaf_count));
-    json_object_set_new(accel, "leaves", integer(tree->leaf_count));
-    json_object_set_new(accel, "depth", integer(tree->depth));
-    json_object_set_new(accel, "triangles", integer(tree->record_count));
-    json_object_set_new(accel, "degenerate", integer(tree->degenerate_count));
-    json_object_set_new(accel, "triangles_per_leaf",
-                        report_json_real((double)tree->record_count / (double)(tree->leaf_count ? tree->leaf_count : 1), RATIO_DECIMALS));
-    json_object_set_new(accel, "sah_cost", report_json_real(tree->sah_cost, RATIO_DECIMALS));
-    json_object_set_new(object, "name", json_string(r->scene->name));
-    json_object_set_new(object, "triangles", integer(r->scene->triangle_count));
-    json_object_set_new(object, "hash", hash_json(r->scene->hash));
-    json_object_set_new(object, "camera", json_string(r->camera->name));
-    json_object_set_new(object, "accel", accel);
-    return object;
-}
-
-static json_t *counts_json(const run_result *r)
-{
-    static const char units_prefix[] = "units_";
-    json_t *object = json_object(), *units = json_object();
-    for (int i = 0; i < KERNEL_COUNTER_COUNT; i++) {
-        const char *name = kernel_counter_table[i].name;
-        if (!(r->options.kernel->counters >> i & 1))
-            continue;
-        if (strncmp(name, units_prefix, strlen(units_prefix)) == 0)
-            json_object_set_new(units, name + strlen(units_prefix), integer(r->counts.n[i]));
-        else
-            json_object_set_new(object, name, integer(r->counts.n[i]));
-    }
-    json_object_set_new(object, "units", units);
-    return object;
-}
 
 static json_t *ops_json(const run_result *r)
 {
@@ -310,9 +263,10 @@ json_t *stats_json(const run_result *r, double load_seconds, int with_host)
 {
     json_t *stats = json_object();
     bool accounted = r->options.model != RUN_NATIVE;
+    json_t *run = r->traced ? json_deep_copy(r->traced) : identity_json(r);
     json_object_set_new(stats, "schema", json_string("lanetrace-stats-1"));
-    json_object_set_new(stats, "kernel", json_string(r->options.kernel->name));
-    json_object_set_new(stats, "params", params_json(&r->options.params));
+    json_object_set(stats, "kernel", json_object_get(run, "kernel"));
+    json_object_set(stats, "params", json_object_get(run, "params"));
     json_object_set_new(stats, "model", json_string(run_model_names[r->options.model]));
     if (accounted) {
         json_t *machine = json_object();
@@ -320,12 +274,10 @@ json_t *stats_json(const run_result *r, double load_seconds, int with_host)
         json_object_set_new(machine, "hash", hash_json(sim_machine_hash(r->machine)));
         json_object_set_new(stats, "machine", machine);
     }
-    json_object_set_new(stats, "scene", scene_json(r));
-    json_t *image = json_object();
-    json_object_set_new(image, "width", integer(r->options.width));
-    json_object_set_new(image, "height", integer(r->options.height));
-    json_object_set_new(stats, "image", image);
-    json_object_set_new(stats, "counts", counts_json(r));
+    json_object_set(stats, "scene", json_object_get(run, "scene"));
+    json_object_set(stats, "image", json_object_get(run, "image"));
+    json_object_set_new(stats, "counts", identity_counts_json(r));
+    json_decref(run);
     if (accounted) {
         json_object_set_new(stats, "ops", ops_json(r));
         json_object_set_new(stats, "cycles", cycles_json(r));
@@ -403,8 +355,8 @@ report_table *stats_table(const run_result *r, double load_seconds)
 {
     bool accounted = r->options.model != RUN_NATIVE;
     char title[384];
-    snprintf(title, sizeof title, "%s on %s (%zu triangles), %ux%u, model %s%s%s", r->options.kernel->name, r->scene->name,
-             r->scene->triangle_count, r->options.width, r->options.height, run_model_names[r->options.model],
+    snprintf(title, sizeof title, "%s on %s (%zu triangles), %ux%u, model %s%s%s", r->options.kernel->name, r->scene_name,
+             r->triangle_count, r->options.width, r->options.height, run_model_names[r->options.model],
              accounted ? ", machine " : "", accounted ? r->machine->name : "");
     report_table *t = report_table_create(title);
     report_table_add_column(t, &(report_column){.name = "statistic"});

@@ -52,7 +52,7 @@ base_status report_page_add_pictures(report_page *page, const report_figure *fig
 
 /**
  * Write the whole page. The same calls and files give the same bytes. Errors: BASE_ERR_NOMEM; write errors are for
- * the owner of the stream to find (report_output_commit).
+ * the owner of the stream to find (base_output_commit).
  */
 base_status report_page_write(report_page *page, FILE *out, base_error *err);
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "reports/image_module_loader.h"
-#include "reports/output_file.h"
+#include "lrbni/base/output_file.h"
 
 enum { MAX_EXTENSION_BYTES = 15 };
 
@@ -37,23 +37,23 @@ static bool is_one_of(const char *extension, const char *const *list)
 static base_status encode_to_file(const char *path, const report_image_job *job, base_error *err)
 {
     report_image_encode_fn *encode;
-    report_output output;
+    base_output output;
     unsigned char *bytes = NULL;
     size_t size = 0;
     /* The file first: a name that cannot be written is found before the work and without the module. */
-    base_status status = report_output_begin(path, false, &output, err);
+    base_status status = base_output_begin(path, false, &output, err);
     if (status != BASE_OK)
         return status;
     status = report_image_module_load(&encode, err);
     if (status == BASE_OK)
         status = encode(job, &bytes, &size, err);
     if (status != BASE_OK) {
-        report_output_abort(&output);
+        base_output_abort(&output);
         return status;
     }
     fwrite(bytes, 1, size, output.stream);
     free(bytes);
-    return report_output_commit(&output, err);
+    return base_output_commit(&output, err);
 }
 
 /* How a picture's channels go into a file: how many, and of what. */

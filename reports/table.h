@@ -92,7 +92,7 @@ size_t report_table_rows(const report_table *table);
 
 /**
  * Write the table to a stream. Errors: BASE_ERR_NOMEM. That the stream took the bytes is for the one who opened it
- * to check (report_output_commit).
+ * to check (base_output_commit).
  *
  * Text: title, caption, aligned columns (widths in terminal cells), notes. CSV: RFC 4180, CRLF line ends, a header
  * row `name` or `name (unit)`, UTF-8 without a mark, rows only. HTML: a <figure class="table"> with title, caption and

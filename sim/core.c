@@ -23,6 +23,8 @@ static void end_region(core_thread *h, uint32_t next)
 static void mark(sim_core *s, core_thread *h, const lrb_event *e)
 {
     s->ops[e->op & (CORE_OPS - 1)]++;
+    if (s->observer)
+        core_tell(s, h, e);
     if ((e->op & LRB_EVENT_ID) == LRB_OP_phase)
         end_phase(s, h, e->aux);
     else if ((e->op & LRB_EVENT_ID) == LRB_OP_region)
@@ -184,13 +186,15 @@ static inline void perform(sim_core *s, core_thread *h, bool joined)
     h->idle_lanes += (unsigned)__builtin_popcount(p->lanes & ~(unsigned)e->mask);
     if (p->flags & ACCESS)
         access_memory(s, h, p, e);
-    if (p->flags & (SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT)) {
+    if (p->flags & (SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT | SIM_PRICE_TOLD)) {
         if (p->flags & SIM_PRICE_LASTING)
             core_outlast(s, h, p);
         if (p->flags & SIM_PRICE_BRANCH)
             core_take_branch(s, h, e);
         if (p->flags & SIM_PRICE_HINT)
             core_take_hint(s, h, e);
+        if (p->flags & SIM_PRICE_TOLD)
+            core_tell(s, h, e);
     }
     h->next++;
     h->event++;

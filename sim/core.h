@@ -19,6 +19,7 @@
 #include "sim/cycles.h"
 #include "sim/hierarchy.h"
 #include "sim/machine.h"
+#include "sim/observer.h"
 #include "sim/profile.h"
 
 /* All members are plain sums, so that the stats of cores add up. */
@@ -64,6 +65,9 @@ void sim_core_destroy(sim_core **core);
 
 /** Charge the core's cycles to a profile as well, which must outlive the core or the next call; NULL: no more. */
 void sim_core_set_profile(sim_core *core, sim_profile *profile);
+
+/** Tell `observer`, not NULL, of all events from now on. Cycles are those of the run, the first is 1. */
+void sim_core_observe(sim_core *core, sim_observer *observer, void *user);
 
 /**
  * Simulate all tiles that the feed gives. Events must have ids of ops.

@@ -99,3 +99,23 @@ void core_outlast(sim_core *s, core_thread *h, const sim_op_price *p)
     if (p->blocking)
         hold_thread(h, h->now + sim_blame(p->blocking, SIM_BUCKET_BLOCKED));
 }
+
+void sim_core_observe(sim_core *s, sim_observer *observer, void *user)
+{
+    s->observer = observer;
+    s->observer_user = user;
+    for (uint32_t op = 0; op <= UINT16_MAX; op++)
+        s->price[op].flags |= SIM_PRICE_TOLD;
+}
+
+void core_tell(sim_core *s, const core_thread *h, const lrb_event *e)
+{
+    const uint64_t cycle = s->now - s->began;
+    sim_issued issued = {.event = e, .cycle = cycle, .ready = cycle, .thread = (unsigned)(h - s->thread)};
+    if (!(s->price[e->op].flags & SIM_PRICE_MARKER)) {
+        issued.ready = sim_time_of(h->results[h->next & (s->window - 1)].ready[SIM_CONSUMER_PLAIN]) - s->began;
+        issued.in_v = s->told == s->now; /* two ops of a cycle are of one thread */
+        s->told = s->now;
+    }
+    s->observer(s->observer_user, &issued);
+}

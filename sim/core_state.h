@@ -78,6 +78,10 @@ struct sim_core {
     uint64_t began; /* the run */
     sim_profile *profile; /* or NULL; not owned */
     sim_core_stats stats;
+
+    sim_observer *observer; /* or NULL */
+    void *observer_user;
+    uint64_t told; /* cycle of the op that it was told of last */
 };
 
 /** Set when a thread's next op can issue, and the bucket to blame. */
@@ -105,6 +109,9 @@ void core_take_hint(sim_core *s, core_thread *h, const lrb_event *e);
 
 /** An op of a lasting class issues: the class is busy for all threads, and the thread perhaps blocked. */
 void core_outlast(sim_core *s, core_thread *h, const sim_op_price *p);
+
+/** Tell the observer of the op that issues, or of a marker. */
+void core_tell(sim_core *s, const core_thread *h, const lrb_event *e);
 
 /** Put the cycles before `cycle` that a thread has spent into their buckets. */
 void core_settle(sim_core *s, core_thread *h, uint64_t cycle);

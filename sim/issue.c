@@ -42,6 +42,9 @@ struct sim_issue {
     sim_profile *profile; /* or NULL; not owned */
     sim_whereabouts at;
     sim_issue_stats stats;
+
+    sim_observer *observer; /* or NULL */
+    void *observer_user;
 };
 
 base_status sim_issue_create(const sim_machine *machine, sim_issue **out, base_error *err)
@@ -181,8 +184,21 @@ static void mark(sim_issue *s, const lrb_event *e)
         s->at.site = e->aux;
 }
 
-/* `profiled` is a constant, so that the loop without a profile knows nothing of one. */
-static inline __attribute__((always_inline)) void time_events(sim_issue *s, const lrb_event *events, uint32_t count, const bool profiled)
+/* Tell the observer of an event that the model has just passed; `before` is when the op before it issued. */
+static void tell(const sim_issue *s, const lrb_event *e, const sim_op_price *p, sim_blamed before)
+{
+    bool marker = p->flags & SIM_PRICE_MARKER;
+    uint64_t cycle = cycles_so_far(s);
+    sim_issued issued = {.event = e, .cycle = cycle, .ready = cycle};
+    if (!marker) {
+        issued.ready += sim_time_of(p->latency.ready[SIM_CONSUMER_PLAIN]);
+        issued.in_v = s->pipe.next > 1 && s->pipe.now == before;
+    }
+    s->observer(s->observer_user, &issued);
+}
+
+/* The loop. Twice in the program, so that a profile and an observer that are not there cost nothing. */
+static inline __attribute__((always_inline)) void time_events(sim_issue *s, const lrb_event *events, uint32_t count, const bool watched)
 {
     pipeline pipe = s->pipe;
     sim_result *const results = s->results;
@@ -191,13 +207,18 @@ static inline __attribute__((always_inline)) void time_events(sim_issue *s, cons
     uint64_t *ops = s->ops[s->phase];
     for (const lrb_event *e = events; e < events + count; e++) {
         const sim_op_price *p = &s->price[e->op];
+        const sim_blamed before = pipe.now;
         ops[e->op & (OPS - 1)]++;
         if (p->flags & SIM_PRICE_MARKER) {
             s->pipe = pipe;
             mark(s, e);
             ops = s->ops[s->phase];
         } else {
-            issue_op(s, &pipe, results, window, gap, p, e, profiled);
+            issue_op(s, &pipe, results, window, gap, p, e, watched && s->profile);
+        }
+        if (watched && s->observer) {
+            s->pipe = pipe;
+            tell(s, e, p, before);
         }
     }
     s->pipe = pipe;
@@ -211,7 +232,7 @@ void sim_issue_events(void *simulator, const lrb_event *events, uint32_t count)
             s->first_op = e->op & (OPS - 1);
             break;
         }
-    if (s->profile)
+    if (s->profile || s->observer)
         time_events(s, events, count, true);
     else
         time_events(s, events, count, false);
@@ -220,6 +241,12 @@ void sim_issue_events(void *simulator, const lrb_event *events, uint32_t count)
 void sim_issue_set_profile(sim_issue *s, sim_profile *profile)
 {
     s->profile = profile;
+}
+
+void sim_issue_observe(sim_issue *s, sim_observer *observer, void *user)
+{
+    s->observer = observer;
+    s->observer_user = user;
 }
 
 /* Ops that did not join issued first in their cycle, a gap after the one before; the tile's first op waited for no gap. */

@@ -26,6 +26,7 @@
 #include "lrbni/op_table.h"
 #include "sim/cycles.h"
 #include "sim/machine.h"
+#include "sim/observer.h"
 #include "sim/profile.h"
 
 /* Where the cycles went; plain sums, so that stats of tiles add up. */
@@ -69,6 +70,9 @@ void sim_issue_begin(sim_issue *s);
 
 /** Time the next events of the tile. Has the signature of lrb_event_sink; `s` is the sim_issue. Ids must be those of ops. */
 void sim_issue_events(void *s, const lrb_event *events, uint32_t count);
+
+/** Tell `observer` of all events from now on; NULL: nobody. Cycles are those of the tile, the first is 1; the thread is 0. */
+void sim_issue_observe(sim_issue *s, sim_observer *observer, void *user);
 
 /**
  * End the tile: its cycles, from the first issue to the last, are added to the stats.

@@ -3,23 +3,11 @@ import base64
 import json
 import os
 import struct
-import subprocess
 import sys
-import tempfile
 
-PROGRAM = sys.argv[1]
+from program import SMALL, fails, main, run, stats_of
+
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SMALL = ['--scene', 'builtin:rooms-804', '--size', '48x40']
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
-
-
-def stats_of(*arguments):
-    result = run('run-kernel', *arguments, '--stats', '-')
-    assert result.returncode == 0, result.stderr
-    return json.loads(result.stdout)
 
 
 def gltf(path, positions, indices=None, **changes):
@@ -44,16 +32,6 @@ def gltf(path, positions, indices=None, **changes):
     with open(path, 'w', encoding='utf-8') as file:
         json.dump(document, file)
     return path
-
-
-def fails(arguments, named, code=2):
-    """The command fails with one line that names what is wrong, and prints nothing else."""
-    result = run(*arguments)
-    lines = result.stderr.splitlines()
-    assert result.returncode == code, (arguments, result.returncode, result.stderr)
-    assert len(lines) == 1 and lines[0].startswith('lanetrace: error: '), (arguments, result.stderr)
-    assert named in lines[0], (arguments, lines[0])
-    assert result.stdout == '', (arguments, result.stdout)
 
 
 def usage__wrong_words__one_line_and_exit_2(folder):
@@ -89,9 +67,6 @@ def usage__wrong_words__one_line_and_exit_2(folder):
 
 def usage__features_of_later_versions__said_so(folder):
     fails(['run-kernel', 'mft-primary', *SMALL, '--error', '0.1'], 'not in this version')
-    fails(['run-kernel', 'mft-primary', *SMALL, '--trace', folder + '/t.ltr'], 'not in this version')
-    fails(['replay', 'x.ltr'], 'not in this version')
-    assert not os.path.exists(folder + '/t.ltr')
 
 
 def scene_file__bad__one_line_names_the_file(folder):
@@ -122,7 +97,7 @@ def scene_file__no_camera_no_light__defaults_frame_it(folder):
 
 
 def output__unwritable__found_before_the_work(folder):
-    for option in ('--stats', '--image', '--aov', '--heatmap'):
+    for option in ('--stats', '--image', '--aov', '--heatmap', '--trace'):
         path = folder + '/no-such-folder/file' + ('.exr' if option == '--aov' else '.png')
         fails(['run-kernel', 'mft-primary', *SMALL, option, path], path)
     fails(['run-kernel', 'mft-primary', *SMALL, '--stats', folder], folder)
@@ -272,25 +247,4 @@ def help__every_subcommand__exit_0(folder):
     assert version.returncode == 0 and version.stdout.startswith('lanetrace ') and version.stdout.count('\n') == 1
 
 
-CASES = [value for name, value in list(globals().items()) if '__' in name and callable(value) and not name.startswith('__')]
-
-
-def main():
-    failed = False
-    print('1..%d' % len(CASES))
-    for number, case in enumerate(CASES, 1):
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                why = case(folder)
-                print('ok %d - %s' % (number, case.__name__))
-                if why:
-                    print('# skipped: %s: %s' % (case.__name__, why))
-            except Exception as fault:  # pylint: disable=broad-except
-                failed = True
-                print('not ok %d - %s' % (number, case.__name__))
-                for line in repr(fault).splitlines():
-                    print('# ' + line)
-    return failed
-
-
-sys.exit(main())
+sys.exit(main(globals()))

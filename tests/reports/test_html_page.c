@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "reports/html_page.h"
-#include "tests/reports/files.h"
+#include "tests/base/files.h"
 
 /* A PNG of one black pixel, made by hand from the format's description; only its head matters here. */
 static const unsigned char tiny_png[] = {

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "reports/image_writer.h"
-#include "tests/reports/files.h"
+#include "tests/base/files.h"
 #include "tests/reports/picture_reader.h"
 
 static int set_up(void **state)

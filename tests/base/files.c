@@ -1,4 +1,4 @@
-#include "tests/reports/files.h"
+#include "tests/base/files.h"
 
 #include <dirent.h>
 #include <stdio.h>

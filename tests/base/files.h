@@ -1,6 +1,6 @@
 /* Directories that tests write to, and looks into them. A failing call ends the test program with a message. */
-#ifndef TESTS_REPORTS_FILES_H
-#define TESTS_REPORTS_FILES_H
+#ifndef TESTS_BASE_FILES_H
+#define TESTS_BASE_FILES_H
 
 #include <stddef.h>
 

@@ -1,4 +1,4 @@
-#include "reports/output_file.h"
+#include "lrbni/base/output_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -38,12 +38,12 @@ static base_status fail_errno(base_error *err, const char *path, const char *doi
     return base_fail(err, status_of(error), path, "%s: %s", doing, strerror(error));
 }
 
-static void output_clear(report_output *out)
+static void output_clear(base_output *out)
 {
     free(out->path);
     free(out->final_path);
     free(out->temp_path);
-    *out = (report_output){0};
+    *out = (base_output){0};
 }
 
 /* Where the last part of a path starts. */
@@ -67,7 +67,7 @@ static void temp_name(char *text, size_t size, const char *path, unsigned number
 }
 
 /* Create a file that did not exist; the kernel applies the umask, which mkstemp would not. */
-static int open_temp(report_output *out, base_error *err)
+static int open_temp(base_output *out, base_error *err)
 {
     size_t size = strlen(out->final_path) + SUFFIX_ROOM;
     int fd = -1;
@@ -91,7 +91,7 @@ static int open_temp(report_output *out, base_error *err)
 }
 
 /* Look at what the name means now: fills in final_path and tells whether to write directly into what is there. */
-static base_status resolve(report_output *out, struct stat *old, bool *exists, bool *direct, base_error *err)
+static base_status resolve(base_output *out, struct stat *old, bool *exists, bool *direct, base_error *err)
 {
     struct stat link;
     *direct = false;
@@ -111,7 +111,7 @@ static base_status resolve(report_output *out, struct stat *old, bool *exists, b
     return BASE_OK;
 }
 
-static base_status open_output(report_output *out, base_error *err)
+static base_status open_output(base_output *out, base_error *err)
 {
     struct stat old;
     bool exists, direct;
@@ -136,10 +136,10 @@ static base_status open_output(report_output *out, base_error *err)
     return BASE_OK;
 }
 
-base_status report_output_begin(const char *path, bool stdout_allowed, report_output *out, base_error *err)
+base_status base_output_begin(const char *path, bool stdout_allowed, base_output *out, base_error *err)
 {
     bool to_stdout = stdout_allowed && strcmp(path, "-") == 0;
-    *out = (report_output){0};
+    *out = (base_output){0};
     if (!*path)
         return base_fail(err, BASE_ERR_INPUT, "output file", "the name is empty");
     out->path = strdup(to_stdout ? "standard output" : path);
@@ -173,7 +173,7 @@ static int close_stream(FILE *stream)
     return error;
 }
 
-base_status report_output_commit(report_output *out, base_error *err)
+base_status base_output_commit(base_output *out, base_error *err)
 {
     base_status status = BASE_OK;
     int error = close_stream(out->stream);
@@ -187,7 +187,7 @@ base_status report_output_commit(report_output *out, base_error *err)
     return status;
 }
 
-void report_output_abort(report_output *out)
+void base_output_abort(base_output *out)
 {
     if (out->stream)
         close_stream(out->stream);
