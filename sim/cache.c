@@ -1,7 +1,6 @@
 #include "sim/cache.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #define NO_LINE UINT64_MAX
 
@@ -14,7 +13,9 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
     sim_cache *cache = calloc(1, sizeof *cache);
     if (cache)
         cache->lines = malloc(places * sizeof *cache->lines);
-    if (!cache || !cache->lines) {
+    if (cache)
+        cache->used = calloc(places, sizeof *cache->used);
+    if (!cache || !cache->lines || !cache->used) {
         sim_cache_destroy(&cache);
         return base_fail(err, BASE_ERR_NOMEM, "cache", "out of memory");
     }
@@ -29,48 +30,30 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
 
 void sim_cache_destroy(sim_cache **cache)
 {
-    if (*cache)
+    if (*cache) {
         free((*cache)->lines);
+        free((*cache)->used);
+    }
     free(*cache);
     *cache = NULL;
 }
 
-static uint64_t *set_of(const sim_cache *cache, uint64_t line)
+/* A free place, or else the one that was not used for longest. */
+void sim_cache_fill(sim_cache *cache, uint64_t line)
 {
-    return cache->lines + (line & (cache->sets - 1)) * cache->ways;
-}
-
-/* The place of a line in its set; `ways` if it is not there. */
-static unsigned place_of(const sim_cache *cache, const uint64_t *set, uint64_t line)
-{
-    unsigned place = 0;
-    while (place < cache->ways && set[place] != line)
-        place++;
-    return place;
-}
-
-bool sim_cache_holds(const sim_cache *cache, uint64_t line)
-{
-    return place_of(cache, set_of(cache, line), line) < cache->ways;
-}
-
-bool sim_cache_reorder(sim_cache *cache, uint64_t line)
-{
-    uint64_t *set = set_of(cache, line);
-    unsigned place = place_of(cache, set, line);
-    bool hit = place < cache->ways;
-    for (unsigned i = hit ? place : cache->ways - 1; i > 0; i--) /* of a miss the last one goes */
-        set[i] = set[i - 1];
-    set[0] = line;
-    return hit;
+    const uint64_t first = (line & (cache->sets - 1)) * cache->ways;
+    uint64_t oldest = first;
+    for (uint64_t place = first; place < first + cache->ways; place++)
+        oldest = cache->used[place] < cache->used[oldest] ? place : oldest;
+    cache->lines[oldest] = line;
+    cache->used[oldest] = ++cache->uses;
 }
 
 void sim_cache_evict(sim_cache *cache, uint64_t line)
 {
-    uint64_t *set = set_of(cache, line);
-    unsigned place = place_of(cache, set, line);
-    if (place == cache->ways)
+    const uint64_t place = sim_cache_place(cache, line);
+    if (place == UINT64_MAX)
         return;
-    memmove(set + place, set + place + 1, (cache->ways - 1 - place) * sizeof *set);
-    set[cache->ways - 1] = NO_LINE;
+    cache->lines[place] = NO_LINE;
+    cache->used[place] = 0;
 }

@@ -17,8 +17,10 @@ extern "C" {
 /* Opaque but to the inline functions below. */
 typedef struct sim_cache {
     unsigned ways, line_bits;
-    uint64_t sets;   /* a power of two */
-    uint64_t *lines; /* sets x ways, in each set the most recently used first; UINT64_MAX: a free place */
+    uint64_t sets;  /* a power of two */
+    uint64_t *lines; /* sets x ways; UINT64_MAX: a free place */
+    uint64_t *used;  /* by place: when it was used last; free places, never: 0 */
+    uint64_t uses;
 } sim_cache;
 
 /** Whether so many bytes are a power-of-two number of sets of `ways` lines of line_bytes; entries of a table: lines of 1. */
@@ -43,11 +45,22 @@ void sim_cache_destroy(sim_cache **cache);
 /** Number of the line that holds an address. */
 static inline uint64_t sim_cache_line(const sim_cache *cache, uint64_t address) { return address >> cache->line_bits; }
 
-/** Whether a line is there; changes nothing. */
-bool sim_cache_holds(const sim_cache *cache, uint64_t line);
+/** The place of a line in the cache; UINT64_MAX if it is not there. All places of its set are looked at, so that a host need not
+ * foresee which one it is. */
+static inline uint64_t sim_cache_place(const sim_cache *cache, uint64_t line)
+{
+    const uint64_t first = (line & (cache->sets - 1)) * cache->ways;
+    uint64_t place = UINT64_MAX;
+    for (unsigned i = 0; i < cache->ways; i++)
+        place = cache->lines[first + i] == line ? first + i : place;
+    return place;
+}
 
-/** What sim_cache_touch does for any line but the most recently used one of its set. */
-bool sim_cache_reorder(sim_cache *cache, uint64_t line);
+/** Whether a line is there; changes nothing. */
+static inline bool sim_cache_holds(const sim_cache *cache, uint64_t line) { return sim_cache_place(cache, line) != UINT64_MAX; }
+
+/** What sim_cache_touch does with a line that is not there. */
+void sim_cache_fill(sim_cache *cache, uint64_t line);
 
 /**
  * Read or write a line: it is there afterwards, as the most recently used one of its set.
@@ -57,7 +70,12 @@ bool sim_cache_reorder(sim_cache *cache, uint64_t line);
  */
 static inline bool sim_cache_touch(sim_cache *cache, uint64_t line)
 {
-    return cache->lines[(line & (cache->sets - 1)) * cache->ways] == line || sim_cache_reorder(cache, line);
+    const uint64_t place = sim_cache_place(cache, line);
+    if (place != UINT64_MAX)
+        cache->used[place] = ++cache->uses;
+    else
+        sim_cache_fill(cache, line);
+    return place != UINT64_MAX;
 }
 
 /** Drop a line if it is there (clevict). */

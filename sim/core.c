@@ -1,68 +1,8 @@
-#include <string.h>
-
 #include "sim/core_state.h"
-
-/* Cycles up to now belong to the phase and region that end here. */
-static void end_phase(sim_core *s, core_thread *h, uint32_t next)
-{
-    s->stats.phase[h->phase] += h->cycles - h->phase_start;
-    s->stats.phase_vector_ops[h->phase] += h->vector_ops;
-    s->stats.phase_idle_lanes[h->phase] += h->idle_lanes;
-    h->phase_start = h->cycles;
-    h->vector_ops = h->idle_lanes = 0;
-    h->phase = h->at.phase = next < SIM_MAX_PHASES ? next : SIM_MAX_PHASES - 1;
-}
-
-static void end_region(core_thread *h, uint32_t next)
-{
-    h->regions[h->region] += h->cycles - h->region_start;
-    h->region_start = h->cycles;
-    h->region = next < SIM_MAX_REGIONS ? next : SIM_MAX_REGIONS;
-}
-
-static void mark(sim_core *s, core_thread *h, const lrb_event *e)
-{
-    s->ops[e->op & (CORE_OPS - 1)]++;
-    if (s->observer)
-        core_tell(s, h, e);
-    if ((e->op & LRB_EVENT_ID) == LRB_OP_phase)
-        end_phase(s, h, e->aux);
-    else if ((e->op & LRB_EVENT_ID) == LRB_OP_region)
-        end_region(h, e->aux);
-    else if ((e->op & LRB_EVENT_ID) == LRB_OP_line)
-        h->at.site = e->aux;
-}
-
-/* Pass the markers before the next op; false: the tile has none left. */
-static inline bool find_op(sim_core *s, core_thread *h)
-{
-    for (; h->event < h->end; mark(s, h, h->event++)) {
-        h->price = &s->price[h->event->op];
-        if (!(h->price->flags & SIM_PRICE_MARKER))
-            return true;
-    }
-    return false;
-}
-
-/* A tile's pipeline is empty; what blocks the thread stays. */
-static void begin_tile(sim_core *s, core_thread *h)
-{
-    memset(h->results, 0, s->window * sizeof *h->results);
-    memset(h->stores, 0, sizeof h->stores);
-    memset(h->regions, 0, sizeof h->regions);
-    h->tile_first = h->next;
-    h->late_until = h->stores_until = 0;
-    h->partners = 0;
-    h->phase = 0;
-    h->at = (sim_whereabouts){0};
-    h->region = SIM_MAX_REGIONS;
-    h->phase_start = h->region_start = h->cycles;
-}
 
 static void end_tile(sim_core *s, core_thread *h, const sim_core_feed *feed)
 {
-    end_phase(s, h, 0);
-    end_region(h, 0);
+    core_end_tile(s, h);
     if (feed->done)
         feed->done(feed->user, (unsigned)(h - s->thread), h->regions);
 }
@@ -70,19 +10,20 @@ static void end_tile(sim_core *s, core_thread *h, const sim_core_feed *feed)
 /* Give a thread the next tile that has an op; without one, it has no more work. */
 static base_status next_tile(sim_core *s, core_thread *h, const sim_core_feed *feed, base_error *err)
 {
+    const unsigned t = (unsigned)(h - s->thread);
     for (;;) {
+        const lrb_event *events = NULL;
         size_t count = 0;
-        base_status status = feed->next(feed->user, (unsigned)(h - s->thread), &h->event, &count, err);
+        base_status status = feed->next(feed->user, t, &events, &count, err);
+        h->end = NULL;
         if (status != BASE_OK)
             return status;
-        if (!h->event) {
-            s->turn[h - s->thread] = s->turn[h - s->thread + s->threads] = CORE_NEVER;
+        if (!events) {
+            s->turn[t] = s->turn[t + s->threads] = CORE_NEVER;
             s->working--;
             return BASE_OK;
         }
-        h->end = h->event + count;
-        begin_tile(s, h);
-        if (find_op(s, h))
+        if (core_begin_tile(s, h, events, count))
             return BASE_OK;
         end_tile(s, h, feed);
     }
@@ -107,23 +48,21 @@ static inline uint64_t keep_scalar(uint64_t number)
 }
 
 /* When the thread's next op can issue, as far as its operands, its class and what blocks the thread are concerned. Which thread
- * issues next varies so much that the host cannot foresee what its op waits for: so sources are compared without
- * branches. Those that an op does not have, and those of long ago, are read from the place of the op's own result, which is 0. */
+ * issues next varies so much that the host cannot foresee what its op waits for: so sources are compared without branches. */
 static inline sim_blamed earliest(const sim_core *s, const core_thread *h)
 {
-    const sim_op_price *p = h->price;
-    const lrb_event *e = h->event;
-    const uint32_t window = s->window;
+    const core_op *op = h->op;
+    const sim_op_price *p = op->price;
+    const sim_blamed *ready = h->results->ready;
     sim_blamed at = h->start;
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++) {
-        uint32_t distance = e->src[i] < window ? e->src[i] : window;
-        sim_blamed ready = keep_scalar(h->results[(h->next - distance) & (window - 1)].ready[p->consumer[i]]);
-        at = ready > at ? ready : at;
+        sim_blamed mine = keep_scalar(ready[op->source[i]]);
+        at = mine > at ? mine : at;
     }
     if (h->late_until > sim_time_of(at))
-        need_late(s, h, p, e, &at);
+        need_late(s, h, p, op->event, &at);
     if (h->stores_until > at && p->flags & SIM_PRICE_READS)
-        sim_need_stored(h->stores, p, e, &at);
+        sim_need_stored(h->stores, p, op->event, &at);
     if (p->flags & SIM_PRICE_LASTING)
         sim_need(s->class_free[p->class_id], &at);
     return at;
@@ -134,12 +73,12 @@ enum { ACCESS = SIM_PRICE_READS | SIM_PRICE_STORE };
 /* How long the thread's next op is held up in cycle `now` because as many lines as may be are under way; 0: it is not. */
 static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_t now)
 {
-    const lrb_event *e = h->event;
-    if (h->price->flags & ACCESS) {
-        uint64_t free_at = sim_slots_free_at(&h->misses);
+    const lrb_event *e = h->op->event;
+    if (h->op->price->flags & ACCESS) {
+        uint64_t free_at = h->misses.free_at;
         return free_at > now && sim_hierarchy_would_miss(s->memory, core_line_of(s, h, e), now) ? sim_blame(free_at, SIM_BUCKET_MISSES) : 0;
     }
-    uint64_t free_at = sim_slots_free_at(&s->prefetches);
+    uint64_t free_at = s->prefetches.free_at;
     unsigned id = e->op & LRB_EVENT_ID;
     bool misses = id == LRB_OP_prefetch1   ? sim_hierarchy_would_miss(s->memory, core_line_of(s, h, e), now)
                   : id == LRB_OP_prefetch2 ? sim_hierarchy_would_miss_l2(s->memory, core_line_of(s, h, e), now)
@@ -150,8 +89,8 @@ static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_
 /* Whether that is worth asking: some limit is reached, and the op may ask for a line. */
 static inline bool may_be_held(const sim_core *s, const core_thread *h, uint64_t now)
 {
-    return (h->price->flags & (ACCESS | SIM_PRICE_HINT)) &&
-           (sim_slots_free_at(&h->misses) > now || sim_slots_free_at(&s->prefetches) > now);
+    return (h->misses.free_at > now || s->prefetches.free_at > now) &&
+           h->op->price->flags & (ACCESS | SIM_PRICE_HINT);
 }
 
 static inline void access_memory(sim_core *s, core_thread *h, const sim_op_price *p, const lrb_event *e)
@@ -161,7 +100,6 @@ static inline void access_memory(sim_core *s, core_thread *h, const sim_op_price
         sim_slots_take(&h->misses, fetch.arrival);
     if (fetch.arrival > s->now && p->flags & SIM_PRICE_READS)
         core_delay_result(s, h, p, fetch);
-    s->stats.memory_operands += (e->op & LRB_FORM_MEMORY) != 0;
     if (p->flags & SIM_PRICE_STORE) {
         const sim_store_line *line = &h->stores[e->aux / 64 % SIM_STORE_LINES];
         sim_remember_store(h->stores, p, e, h->now);
@@ -170,20 +108,15 @@ static inline void access_memory(sim_core *s, core_thread *h, const sim_op_price
 }
 
 /* The thread's next op issues in this cycle. */
-static inline void perform(sim_core *s, core_thread *h, bool joined)
+static inline void perform(sim_core *s, core_thread *h, const bool joined)
 {
-    const sim_op_price *p = h->price;
-    const lrb_event *e = h->event;
-    const uint32_t window = s->window;
-    s->ops[e->op & (CORE_OPS - 1)]++;
-    if (s->profile)
-        sim_profile_issue(s->profile, &h->at, e->op & (CORE_OPS - 1), p->lanes, e->mask, joined);
+    const sim_op_price *p = h->op->price;
+    const lrb_event *e = h->op->event;
+    const uint32_t last = s->window - 1, number = h->next;
     h->start = sim_end_of_cycle(h->now);
     h->partners = p->partners;
-    sim_put_result(&h->results[h->next & (window - 1)], &p->latency, h->now);
-    h->results[(h->next + 1) & (window - 1)] = (sim_result){{0}};
-    h->vector_ops += p->lanes & 1;
-    h->idle_lanes += (unsigned)__builtin_popcount(p->lanes & ~(unsigned)e->mask);
+    sim_put_result(&h->results[number & last], &p->latency, h->now);
+    h->results[(number + 1) & last] = (sim_result){{0}};
     if (p->flags & ACCESS)
         access_memory(s, h, p, e);
     if (p->flags & (SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT | SIM_PRICE_TOLD)) {
@@ -194,10 +127,10 @@ static inline void perform(sim_core *s, core_thread *h, bool joined)
         if (p->flags & SIM_PRICE_HINT)
             core_take_hint(s, h, e);
         if (p->flags & SIM_PRICE_TOLD)
-            core_tell(s, h, e);
+            core_tell_op(s, h, e, joined);
     }
-    h->next++;
-    h->event++;
+    h->next = number + 1;
+    h->op++;
 }
 
 /* May two ops access memory in the same cycle? */
@@ -219,31 +152,28 @@ static bool share_memory(sim_core *s, const core_thread *h, const lrb_event *fir
 /* May the next op, which can issue at `at`, join the one that has just issued? */
 static inline bool joins(sim_core *s, const core_thread *h, const lrb_event *first, sim_blamed at)
 {
-    const unsigned partner = h->partners >> h->price->class_id & 1;
+    const unsigned partner = h->partners >> h->op->price->class_id & 1;
     if (!(partner & (unsigned)(at == h->start)))
         return false;
-    return !(h->price->flags & (ACCESS | SIM_PRICE_HINT)) ||
-           (!held_by_lines(s, h, s->now) && share_memory(s, h, first, h->event));
+    return !(h->op->price->flags & (ACCESS | SIM_PRICE_HINT)) ||
+           (!held_by_lines(s, h, s->now) && share_memory(s, h, first, h->op->event));
 }
 
-/* The cycles since the thread issued last, and those since the core did, go to their buckets; the thread issues now. */
+/* The cycles since the thread issued last, and those since the core did, go to their buckets, but for the gaps and the turns of
+   other threads: these are what is left of all cycles. The thread issues now. */
 static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycle)
 {
-    const uint64_t ready_at = s->turn[t] / CORE_TURN, next = s->now + 1, idle = cycle - next;
-    const unsigned bucket = s->why[t], id = h->event->op & (CORE_OPS - 1);
-    uint64_t gap_end = sim_time_of(h->now) + s->gap;
-    gap_end = gap_end < cycle ? gap_end : cycle;
-    gap_end = gap_end > next ? gap_end : next;
+    const uint64_t ready_at = s->turn[t] / CORE_TURN, gap_end = sim_time_of(h->now) + s->gap;
+    const unsigned bucket = s->why[t], id = h->op->event->op & (CORE_OPS - 1);
+    const uint64_t idle_from = gap_end > s->now + 1 ? gap_end : s->now + 1;
     s->thread_waited[bucket] += ready_at - h->waits_from;
-    s->other_thread += cycle - ready_at;
-    s->core_gap += gap_end - next;
-    s->core_waited[bucket] += cycle - gap_end;
-    s->op_cycles[id] += idle + 1;
+    s->core_waited[bucket] += cycle - idle_from;
+    s->op_cycles[id] += cycle - s->now;
     if (s->profile) {
-        sim_profile_wait(s->profile, &h->at, id, SIM_BUCKET_NONE, gap_end - next);
-        sim_profile_wait(s->profile, &h->at, id, bucket, cycle - gap_end);
+        sim_profile_wait(s->profile, &h->at, id, SIM_BUCKET_NONE, idle_from - s->now - 1);
+        sim_profile_wait(s->profile, &h->at, id, bucket, cycle - idle_from);
     }
-    h->cycles += idle + 1;
+    h->cycles += cycle - s->now;
     s->now = cycle;
     h->now = sim_blame(cycle, 0);
 }
@@ -251,16 +181,16 @@ static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycl
 /* Issue an op, and perhaps the one after it, in this cycle. Gives when the next one can issue; 0: the tile has none left. */
 static inline sim_blamed issue(sim_core *s, core_thread *h)
 {
-    const lrb_event *first = h->event;
+    const lrb_event *first = h->op->event;
     perform(s, h, false);
-    if (!find_op(s, h))
+    if (!core_find_op(s, h))
         return 0;
     sim_blamed at = earliest(s, h);
     if (joins(s, h, first, at)) {
-        s->joins[h->event->op & (CORE_OPS - 1)]++;
+        s->joins[h->op->event->op & (CORE_OPS - 1)]++;
         perform(s, h, true);
         h->partners = 0;
-        at = find_op(s, h) ? earliest(s, h) : 0;
+        at = core_find_op(s, h) ? earliest(s, h) : 0;
     }
     return at;
 }
@@ -283,7 +213,7 @@ static base_status run_dry(sim_core *s, core_thread *h, const sim_core_feed *fee
 {
     end_tile(s, h, feed);
     base_status status = next_tile(s, h, feed, err);
-    if (status == BASE_OK && h->event)
+    if (status == BASE_OK && h->end)
         *at = earliest(s, h);
     return status;
 }
@@ -301,9 +231,10 @@ static base_status begin_run(sim_core *s, const sim_core_feed *feed, base_error 
         h->waits_from = s->now + 1;
         h->now = sim_blame(s->now + 1 - s->gap, 0);
         h->start = sim_end_of_cycle(h->now);
-        h->ran = false;
         status = next_tile(s, h, feed, err);
-        if (status == BASE_OK && h->event)
+        h->works = h->end;
+        s->runs_of_threads += h->works;
+        if (status == BASE_OK && h->works)
             core_set_turn(s, t, sim_blame(s->now + 1, SIM_BUCKET_NONE));
     }
     return status;
@@ -314,7 +245,7 @@ static void end_run(sim_core *s)
 {
     s->stats.cycles += s->now - s->began;
     for (unsigned t = 0; t < s->threads; t++)
-        s->stats.threads.no_work += s->now - (s->thread[t].ran ? sim_time_of(s->thread[t].now) : s->began);
+        s->stats.threads.no_work += s->now - (s->thread[t].works ? sim_time_of(s->thread[t].now) : s->began);
 }
 
 /* The thread whose turn it is, t, and the cycle: from the turn and place that first_turn found after thread `last`. */
@@ -350,14 +281,12 @@ base_status sim_core_run(sim_core *s, const sim_core_feed *feed, base_error *err
             }
         }
         charge(s, h, t, cycle);
-        s->thread_gap += h->ran ? s->gap - 1 : 0;
-        h->ran = true;
         s->last = t;
         sim_blamed at = issue(s, h);
         h->waits_from = cycle + s->gap;
         if (!at) {
             status = run_dry(s, h, feed, &at, err);
-            if (!h->event) {
+            if (!h->end) {
                 turn = any_turn(s, t);
                 continue;
             }

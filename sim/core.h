@@ -63,7 +63,7 @@ base_status sim_core_create(const sim_machine *machine, sim_core **out, base_err
 /** Free a core; sets the pointer to NULL. */
 void sim_core_destroy(sim_core **core);
 
-/** Charge the core's cycles to a profile as well, which must outlive the core or the next call; NULL: no more. */
+/** Charge the core's cycles to a profile, not NULL, as well; it must outlive the core. */
 void sim_core_set_profile(sim_core *core, sim_profile *profile);
 
 /** Tell `observer`, not NULL, of all events from now on. Cycles are those of the run, the first is 1. */

@@ -75,11 +75,6 @@ base_status sim_core_create(const sim_machine *machine, sim_core **out, base_err
     return status;
 }
 
-void sim_core_set_profile(sim_core *core, sim_profile *profile)
-{
-    core->profile = profile;
-}
-
 void sim_core_destroy(sim_core **core)
 {
     sim_core *s = *core;

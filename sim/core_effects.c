@@ -72,7 +72,6 @@ void core_settle(sim_core *s, core_thread *h, uint64_t cycle)
     if (cycle <= h->waits_from)
         return;
     s->thread_waited[s->why[t]] += (ready_at < cycle ? ready_at : cycle) - h->waits_from;
-    s->other_thread += ready_at < cycle ? cycle - ready_at : 0;
     h->waits_from = cycle;
 }
 
@@ -83,7 +82,7 @@ static void keep_busy(sim_core *s, const core_thread *h, const sim_op_price *p)
     s->class_free[p->class_id] = until;
     for (unsigned t = 0; t < s->threads; t++) {
         core_thread *other = &s->thread[t];
-        if (other == h || s->turn[t] == CORE_NEVER || other->price->class_id != p->class_id ||
+        if (other == h || s->turn[t] == CORE_NEVER || other->op->price->class_id != p->class_id ||
             sim_blame(s->turn[t] / CORE_TURN, s->why[t]) >= until)
             continue;
         core_settle(s, other, s->now + 1);
@@ -100,12 +99,31 @@ void core_outlast(sim_core *s, core_thread *h, const sim_op_price *p)
         hold_thread(h, h->now + sim_blame(p->blocking, SIM_BUCKET_BLOCKED));
 }
 
+static void tell_of_all(sim_core *s)
+{
+    for (uint32_t op = 0; op <= UINT16_MAX; op++)
+        s->price[op].flags |= SIM_PRICE_TOLD;
+}
+
+void sim_core_set_profile(sim_core *s, sim_profile *profile)
+{
+    s->profile = profile;
+    tell_of_all(s);
+}
+
 void sim_core_observe(sim_core *s, sim_observer *observer, void *user)
 {
     s->observer = observer;
     s->observer_user = user;
-    for (uint32_t op = 0; op <= UINT16_MAX; op++)
-        s->price[op].flags |= SIM_PRICE_TOLD;
+    tell_of_all(s);
+}
+
+void core_tell_op(sim_core *s, core_thread *h, const lrb_event *e, bool joined)
+{
+    if (s->profile)
+        sim_profile_issue(s->profile, &h->at, e->op & (CORE_OPS - 1), s->price[e->op].lanes, e->mask, joined);
+    if (s->observer)
+        core_tell(s, h, e);
 }
 
 void core_tell(sim_core *s, const core_thread *h, const lrb_event *e)

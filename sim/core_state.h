@@ -24,10 +24,21 @@ typedef struct core_late_result {
     sim_result result;
 } core_late_result;
 
+/* An op of a tile, made ready for the loop a block at a time: what does not depend on time is found here, where a host foresees
+ * its branches. */
+typedef struct core_op {
+    const sim_op_price *price;
+    const lrb_event *event;
+    uint16_t source[SIM_MAX_SOURCES]; /* where in the thread's results each one's is, by kind of consumer; 0 stands in the op's own place */
+    uint32_t pause;                   /* markers before the op; CORE_END: there is no op here */
+} core_op;
+
+enum { CORE_BLOCK = 64 };
+#define CORE_END UINT32_MAX
+
 /* A hardware thread. Times are cycles, or blamed times where the type says so. */
 typedef struct core_thread {
-    const lrb_event *event, *end; /* the op that issues next, and the end of the tile */
-    const sim_op_price *price;    /* of the op */
+    const core_op *op;  /* that issues next */
     sim_blamed now;     /* of the last issue, bucket 0 */
     sim_blamed start;   /* the next op issues later than this, unless it joins */
     uint64_t waits_from; /* cycles before this are in a bucket, or in the gap */
@@ -44,11 +55,15 @@ typedef struct core_thread {
 
     uint64_t cycles;    /* core cycles so far that belong to the thread's ops */
     uint64_t phase_start, region_start; /* of these */
-    uint64_t vector_ops, idle_lanes;    /* of the phase */
-    bool ran; /* it has issued an op in this run */
     uint32_t phase, region;
     uint64_t regions[SIM_MAX_REGIONS + 1]; /* of the tile */
     sim_whereabouts at;
+
+    const lrb_event *decoded, *end; /* the tile's events from `decoded` on are not in the block yet; NULL: no tile */
+    uint32_t trailing;      /* markers before `decoded` that no op follows */
+    uint32_t decoded_phase;
+    bool works;             /* it has been given a tile with ops in this run */
+    core_op block[CORE_BLOCK + 1];
 } core_thread;
 
 struct sim_core {
@@ -74,14 +89,13 @@ struct sim_core {
     uint64_t ops[CORE_OPS], op_cycles[CORE_OPS];
     uint64_t joins[CORE_OPS]; /* ops that joined another's cycle */
     uint64_t core_waited[SIM_BUCKETS], thread_waited[SIM_BUCKETS];
-    uint64_t core_gap, thread_gap, other_thread;
     uint64_t began; /* the run */
-    sim_profile *profile; /* or NULL; not owned */
-    sim_core_stats stats;
-
+    uint64_t runs_of_threads; /* runs of all threads that had work */
+    sim_profile *profile;   /* or NULL; not owned */
     sim_observer *observer; /* or NULL */
     void *observer_user;
-    uint64_t told; /* cycle of the op that it was told of last */
+    uint64_t told; /* cycle of the op that the observer was told of last */
+    sim_core_stats stats;
 };
 
 /** Set when a thread's next op can issue, and the bucket to blame. */
@@ -98,6 +112,21 @@ static inline uint64_t core_line_of(const sim_core *s, const core_thread *h, con
     return (address + (address >= LRB_SCRATCH_ADDRESS ? h->scratch : 0)) >> s->line_bits;
 }
 
+/** A tile has none of the ops of the one before: make its first block ready. False: it has no op at all. */
+bool core_begin_tile(sim_core *s, core_thread *h, const lrb_event *events, size_t count);
+
+/** All ops of the tile have issued: its cycles belong to its last phase and region. */
+void core_end_tile(sim_core *s, core_thread *h);
+
+/** What core_find_op does where markers stand or the block ends. */
+bool core_pass_markers(sim_core *s, core_thread *h);
+
+/** Go on to the thread's next op; false: the tile has none left. */
+static inline bool core_find_op(sim_core *s, core_thread *h)
+{
+    return !h->op->pause || core_pass_markers(s, h);
+}
+
 /** The data of the op that issues comes later than from the first level. */
 void core_delay_result(sim_core *s, core_thread *h, const sim_op_price *p, sim_fetch fetch);
 
@@ -110,7 +139,10 @@ void core_take_hint(sim_core *s, core_thread *h, const lrb_event *e);
 /** An op of a lasting class issues: the class is busy for all threads, and the thread perhaps blocked. */
 void core_outlast(sim_core *s, core_thread *h, const sim_op_price *p);
 
-/** Tell the observer of the op that issues, or of a marker. */
+/** Tell the profile and the observer of the op that issues: first in its cycle, or beside the op before it. */
+void core_tell_op(sim_core *s, core_thread *h, const lrb_event *e, bool joined);
+
+/** Tell the observer of an event. */
 void core_tell(sim_core *s, const core_thread *h, const lrb_event *e);
 
 /** Put the cycles before `cycle` that a thread has spent into their buckets. */

@@ -17,15 +17,17 @@ static void collect_issues(const sim_core *s, sim_core_stats *to)
     to->core.issued_one = to->threads.issued_one = issues - joins_sum;
 }
 
+/* The gaps of a thread lie between its issues; what of all cycles is in no other bucket was the core's gaps, and the
+   turns of other threads. */
 sim_core_stats sim_core_get(const sim_core *s)
 {
     sim_core_stats stats = s->stats;
     collect_issues(s, &stats);
     sim_cycles_of_buckets(s->core_waited, &stats.core);
     sim_cycles_of_buckets(s->thread_waited, &stats.threads);
-    stats.core.gap = s->core_gap;
-    stats.threads.gap = s->thread_gap;
-    stats.threads.other_thread = s->other_thread;
+    stats.threads.gap = (stats.core.issued_one + stats.core.issued_pair - s->runs_of_threads) * (s->gap - 1);
+    stats.core.gap = stats.cycles - sim_cycles_sum(&stats.core);
+    stats.threads.other_thread = stats.cycles * s->threads - sim_cycles_sum(&stats.threads);
     stats.memory = s->memory->counts;
     return stats;
 }

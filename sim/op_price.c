@@ -21,11 +21,11 @@ static sim_consumer consumer_of(char read)
     }
 }
 
-static void consumers_of(lrb_op_id id, unsigned form, uint8_t consumer[SIM_MAX_SOURCES])
+static void consumers_of(lrb_op_id id, unsigned form, uint16_t consumer[SIM_MAX_SOURCES])
 {
     const char *reads = lrb_shape_table[lrb_op_table[id].shape].reads;
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)
-        consumer[i] = (uint8_t)consumer_of(reads[i]);
+        consumer[i] = (uint16_t)consumer_of(reads[i]);
     if (form & LRB_FORM_MEMORY)
         consumer[1] = SIM_CONSUMER_ADDRESS;
     else if (form & LRB_FORM_SWIZZLE && lrb_op_access_of(id) == LRB_ACCESS_NONE)

@@ -45,12 +45,12 @@ enum { SIM_MAX_SOURCES = 4 };
 
 /* Flags of a price. LASTING: busy for several cycles, or blocking: rare, and kept out of the common path. */
 enum { SIM_PRICE_MARKER = 1, SIM_PRICE_READS = 2, SIM_PRICE_STORE = 4, SIM_PRICE_LASTING = 8, SIM_PRICE_BRANCH = 16, SIM_PRICE_HINT = 32,
-       SIM_PRICE_TOLD = 64 /* an observer is told of it */ };
+       SIM_PRICE_TOLD = 64 /* a profile or an observer is told of it */ };
 
 /* The price of an op in one form; 64 bytes. */
 typedef struct sim_op_price {
     sim_result latency;
-    uint8_t consumer[SIM_MAX_SOURCES]; /* sim_consumer of each source */
+    uint16_t consumer[SIM_MAX_SOURCES]; /* sim_consumer of each source */
     uint32_t partners; /* set of classes: ops of these may join this one in V; empty if it cannot issue in U beside another */
     uint32_t words;    /* of its line that it touches, from its address on; 0: those of the mask */
     uint8_t class_id;
@@ -61,7 +61,7 @@ typedef struct sim_op_price {
     uint16_t blocking; /* cycles for which the thread is blocked; 0: not at all */
     uint8_t bytes;     /* that it loads or stores */
     uint8_t word_shift; /* 15: `words` begins at the address; 0: at the line's first word */
-    uint8_t pad[6];
+    uint8_t pad[2];
 } sim_op_price;
 _Static_assert(sizeof(sim_op_price) == 64, "a power of two");
 

@@ -7,11 +7,9 @@
 typedef struct sim_slots {
     unsigned count;    /* at least 1 */
     unsigned earliest; /* the slot that is free first */
-    uint64_t *until;   /* count of them, owned by whoever owns the slots */
+    uint64_t free_at;  /* when it is; a time that has passed if it is free */
+    uint64_t *until;   /* of every slot, owned by whoever owns the slots */
 } sim_slots;
-
-/** When a slot is free at the earliest; a time that has passed if one is free. */
-static inline uint64_t sim_slots_free_at(const sim_slots *s) { return s->until[s->earliest]; }
 
 /** Take the slot that is free first. */
 static inline void sim_slots_take(sim_slots *s, uint64_t until)
@@ -20,6 +18,7 @@ static inline void sim_slots_take(sim_slots *s, uint64_t until)
     for (unsigned i = 0; i < s->count; i++)
         if (s->until[i] < s->until[s->earliest])
             s->earliest = i;
+    s->free_at = s->until[s->earliest];
 }
 
 #endif

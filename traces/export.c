@@ -102,10 +102,14 @@ const char *export_form_name(uint16_t op)
         [0] = "",
         [LRB_FORM_SWIZZLE >> 12] = "swizzle",
         [LRB_FORM_MEMORY >> 12] = "memory",
-        [LRB_FORM_CONVERT >> 12] = "1to16",
-        [(LRB_FORM_CONVERT | LRB_FORM_4TO16) >> 12] = "4to16",
-        [(LRB_FORM_MEMORY | LRB_FORM_CONVERT) >> 12] = "memory 1to16",
-        [(LRB_FORM_MEMORY | LRB_FORM_CONVERT | LRB_FORM_4TO16) >> 12] = "memory 4to16",
+        [LRB_FORM_4_BYTES >> 12] = "1to16",
+        [LRB_FORM_8_BYTES >> 12] = "1to8",
+        [LRB_FORM_16_BYTES >> 12] = "4to16",
+        [LRB_FORM_32_BYTES >> 12] = "4to8",
+        [(LRB_FORM_MEMORY | LRB_FORM_4_BYTES) >> 12] = "memory 1to16",
+        [(LRB_FORM_MEMORY | LRB_FORM_8_BYTES) >> 12] = "memory 1to8",
+        [(LRB_FORM_MEMORY | LRB_FORM_16_BYTES) >> 12] = "memory 4to16",
+        [(LRB_FORM_MEMORY | LRB_FORM_32_BYTES) >> 12] = "memory 4to8",
     };
     const char *name = names[op >> 12];
     return name ? name : "other";

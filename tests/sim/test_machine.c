@@ -19,7 +19,7 @@ static void builtin__each_loads__named_and_checked(void **state)
     (void)state;
     size_t count = 0;
     const char *const *names = sim_machine_names(&count);
-    assert_int_equal(count, 2);
+    assert_int_equal(count, 4);
     for (size_t i = 0; i < count; i++) {
         sim_machine *machine = load(names[i]);
         assert_string_equal(machine->name, names[i]);
@@ -186,7 +186,7 @@ static void load__name_or_path__errors_name_it(void **state)
     base_error err = {0};
     assert_int_equal(sim_machine_load("pentium", &machine, &err), BASE_ERR_USAGE);
     assert_string_equal(err.what, "pentium");
-    assert_string_equal(err.why, "no such machine; built in: larrabee, knc; a path has a '/' or ends in .ini");
+    assert_string_equal(err.why, "no such machine; built in: larrabee, knc, ideal, wide; a path has a '/' or ends in .ini");
     assert_int_equal(sim_machine_load("no-such-file.ini", &machine, &err), BASE_ERR_INPUT);
     assert_string_equal(err.what, "no-such-file.ini");
     assert_int_equal(sim_machine_load("/", &machine, &err), BASE_ERR_INPUT);

@@ -74,7 +74,8 @@ static sim_core_stats run_core(const sim_machine *machine, work *w, sim_profile 
     sim_core *core = NULL;
     w->next = 0;
     assert_int_equal(sim_core_create(machine, &core, NULL), BASE_OK);
-    sim_core_set_profile(core, profile);
+    if (profile)
+        sim_core_set_profile(core, profile);
     assert_int_equal(sim_core_run(core, &feed, NULL), BASE_OK);
     sim_core_stats stats = sim_core_get(core);
     sim_core_destroy(&core);
