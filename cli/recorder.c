@@ -60,14 +60,17 @@ static base_status out_of_memory(base_error *err)
 
 static base_status read_tile(recorder *r, uint32_t tile, recording *into, base_error *err)
 {
-    uint32_t count;
-    base_status status = trace_source_seek(r->source, tile, err);
-    if (status == BASE_OK && !grow(into, trace_reader_tile_events(r->input->replayed, tile)))
+    const recorder_input *input = r->input;
+    const uint32_t size = trace_reader_tile_events(input->replayed, tile);
+    uint32_t count = 0;
+    base_status status = input->exchange ? BASE_OK : trace_source_seek(r->source, tile, err);
+    if (status == BASE_OK && !grow(into, size))
         return out_of_memory(err);
-    if (status == BASE_OK)
-        status = trace_source_read(r->source, into->events, trace_reader_tile_events(r->input->replayed, tile), &count, err);
-    if (status == BASE_OK)
-        into->count = count;
+    if (status == BASE_OK && input->exchange)
+        status = tile_exchange_take(input->exchange, input->member, r->source, tile, into->events, &count, err);
+    else if (status == BASE_OK)
+        status = trace_source_read(r->source, into->events, size, &count, err);
+    into->count = count;
     return status;
 }
 

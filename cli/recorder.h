@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "cli/run_trace.h"
+#include "cli/tile_exchange.h"
 #include "kernels/kernel.h"
 #include "sim/bounds.h"
 #include "sim/observer.h"
@@ -37,6 +38,8 @@ typedef struct recorder_input {
     kernel_counts *tile_counts; /* out: by tile, or NULL */
     run_trace *trace;           /* takes what the kernel records; its writer may be NULL */
     const trace_reader *replayed; /* of a replay: the trace; none of the above then */
+    tile_exchange *exchange;      /* of a replay on several machines: the others that read the trace, or NULL */
+    unsigned member;              /* number among them */
     const core_watch *watch;      /* or NULL; of a single core */
 } recorder_input;
 

@@ -1,5 +1,6 @@
 #include "cli/replay_run.h"
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,17 +147,88 @@ static base_status replay_tiles(const trace_reader *trace, const identity *id, r
     return status;
 }
 
-/* Core: its threads take tiles when they run dry, each machine's at other times. */
-static base_status replay_cores(const trace_reader *trace, const identity *id, replay_state *r, run_result *results, base_error *err)
+/* One machine of several that read the trace together. */
+typedef struct core_member {
+    run_result *result;
+    recorder_input input;
+    progress *bar;
+    base_error err;
+    pthread_t thread;
+} core_member;
+
+static void *run_member(void *user)
+{
+    core_member *m = user;
+    tile_exchange_enter(m->input.exchange);
+    run_core(m->result, &m->input, m->bar, &m->err);
+    tile_exchange_leave(m->input.exchange, m->input.member);
+    return NULL;
+}
+
+/* Run all members, each in a thread; for one that the host has no thread for, none is left. */
+static base_status run_members(core_member *members, size_t count, base_error *err)
+{
+    size_t started = 0;
+    while (started < count && pthread_create(&members[started].thread, NULL, run_member, &members[started]) == 0)
+        started++;
+    for (size_t m = started; m < count; m++) {
+        base_fail(&members[m].err, BASE_ERR_NOMEM, "--machine", "no thread for machine %s", members[m].result->machine->name);
+        tile_exchange_enter(members[m].input.exchange);
+        tile_exchange_leave(members[m].input.exchange, members[m].input.member);
+    }
+    for (size_t m = 0; m < started; m++)
+        pthread_join(members[m].thread, NULL);
+    for (size_t m = 0; m < count; m++)
+        if (members[m].err.status != BASE_OK)
+            return base_fail(err, members[m].err.status, members[m].err.what, "%s", members[m].err.why);
+    return BASE_OK;
+}
+
+/* Core, several machines of a core each: side by side, each tile decoded once. */
+static base_status replay_together(const trace_reader *trace, replay_state *r, run_result *results, base_error *err)
+{
+    core_member *members = calloc(r->count, sizeof *members);
+    tile_exchange *exchange = NULL;
+    base_status status = BASE_OK;
+    if (!members)
+        status = base_fail(err, BASE_ERR_NOMEM, "--machine", "out of memory");
+    if (status == BASE_OK)
+        status = tile_exchange_create(trace, (unsigned)r->count, r->jobs, &exchange, err);
+    for (size_t m = 0; status == BASE_OK && m < r->count; m++) {
+        members[m] = (core_member){.result = &results[m], .bar = &r->progress};
+        members[m].input = (recorder_input){.tiles = trace_reader_tiles(trace), .replayed = trace, .exchange = exchange, .member = (unsigned)m};
+        results[m].options.jobs = 1; /* of the machine's own; the others run meanwhile */
+    }
+    if (status == BASE_OK)
+        status = run_members(members, r->count, err);
+    for (size_t m = 0; m < r->count; m++)
+        results[m].options.jobs = r->jobs;
+    tile_exchange_destroy(&exchange);
+    free(members);
+    return status;
+}
+
+static base_status replay_one_by_one(const trace_reader *trace, replay_state *r, run_result *results, base_error *err)
 {
     const recorder_input input = {.tiles = trace_reader_tiles(trace), .replayed = trace};
     base_status status = BASE_OK;
-    for (size_t m = 0; status == BASE_OK && m < r->count; m++) {
-        double start = clock_seconds();
-        results[m].counts = id->counts;
+    for (size_t m = 0; status == BASE_OK && m < r->count; m++)
         status = run_core(&results[m], &input, &r->progress, err);
-        results[m].kernel_seconds = clock_seconds() - start;
+    return status;
+}
+
+/* Core: its threads take tiles when they run dry, each machine's at other times; several cores share them out in their own way. */
+static base_status replay_cores(const trace_reader *trace, const identity *id, replay_state *r, run_result *results, base_error *err)
+{
+    const double start = clock_seconds();
+    bool together = r->count > 1;
+    for (size_t m = 0; m < r->count; m++) {
+        results[m].counts = id->counts;
+        together &= r->machines[m]->cores == 1;
     }
+    base_status status = together ? replay_together(trace, r, results, err) : replay_one_by_one(trace, r, results, err);
+    for (size_t m = 0; m < r->count; m++)
+        results[m].kernel_seconds = clock_seconds() - start;
     return status;
 }
 

@@ -112,7 +112,8 @@ static void simulate_core(void *user, size_t core, unsigned worker)
 /* One core here, its tiles recorded ahead by the other host threads. */
 static base_status simulate_single(chip *c, unsigned jobs, base_error *err)
 {
-    core_run r = {.result = c->result, .tiles = c->input->tiles, .watch = c->input->watch, .bar = c->bar, .step = 1, .recorder = &c->recorders[0]};
+    core_run r = {.result = c->result, .tiles = c->input->tiles, .watch = c->input->watch, .bar = c->bar,
+                  .worker = c->input->member, .step = 1, .recorder = &c->recorders[0]};
     base_status status = BASE_OK;
     if (jobs > 1)
         status = record_ahead_start(c->recorders + 1, jobs - 1, c->input->tiles, c->result->machine->threads, &r.ahead, err);

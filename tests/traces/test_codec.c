@@ -64,7 +64,7 @@ static size_t round_trip(codec *c, const lrb_event *events, size_t count, size_t
 {
     base_error err = {0};
     trace_tile tile;
-    size_t got;
+    size_t got = 0;
     lrb_event *back = malloc((count + batch_out) * sizeof *back);
     if (encode(c, events, count, batch_in, &tile, &err) || decode(c, &tile, back, batch_out, &got, &err))
         fail_msg("%s: %s", err.what, err.why);
