@@ -103,22 +103,22 @@ json_t *stats_stalls_json(const sim_cycles *s)
     return object;
 }
 
-/* Cycles that rest on each basis, by the field that made the core wait; the latency of a level of memory has one field. */
-static void add_plain_bases(const sim_cycles *s, const sim_machine_value *v, uint64_t cycles[SIM_BASIS_COUNT])
+/* The latency of a level of memory has one field. */
+static void charge_plain_fields(const sim_cycles *s, uint64_t cycles[SIM_FIELDS])
 {
-    cycles[v[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)].basis] += s->store_forward;
-    cycles[v[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)].basis] += s->blocked;
-    cycles[v[sim_class_field(LRB_CLASS_delay, SIM_KEY_throughput)].basis] += s->delay;
-    cycles[v[SIM_FIELD_machine_issue_gap].basis] += s->gap;
-    cycles[v[SIM_FIELD_l2_latency].basis] += s->l2;
-    cycles[v[SIM_FIELD_memory_latency].basis] += s->memory;
-    cycles[v[SIM_FIELD_branch_mispredict_penalty].basis] += s->mispredict;
-    cycles[v[SIM_FIELD_branch_btb_miss_penalty].basis] += s->btb_miss;
-    cycles[v[SIM_FIELD_memory_demand_misses_per_thread].basis] += s->misses;
-    cycles[v[SIM_FIELD_memory_prefetches_per_core].basis] += s->prefetches;
+    cycles[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)] += s->store_forward;
+    cycles[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)] += s->blocked;
+    cycles[sim_class_field(LRB_CLASS_delay, SIM_KEY_throughput)] += s->delay;
+    cycles[SIM_FIELD_machine_issue_gap] += s->gap;
+    cycles[SIM_FIELD_l2_latency] += s->l2;
+    cycles[SIM_FIELD_memory_latency] += s->memory;
+    cycles[SIM_FIELD_branch_mispredict_penalty] += s->mispredict;
+    cycles[SIM_FIELD_branch_btb_miss_penalty] += s->btb_miss;
+    cycles[SIM_FIELD_memory_demand_misses_per_thread] += s->misses;
+    cycles[SIM_FIELD_memory_prefetches_per_core] += s->prefetches;
 }
 
-void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
+void stats_cycles_by_field(const run_result *r, uint64_t cycles[SIM_FIELDS])
 {
     static const sim_class_key latency_key[SIM_CONSUMERS] = {
         [SIM_CONSUMER_PLAIN] = SIM_KEY_latency,
@@ -128,19 +128,26 @@ void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
     };
     const sim_cycles s = stats_cycles(r);
     const uint64_t *issued = r->options.model == RUN_CORE ? r->core.issued_by_class : r->issue.issued_by_class;
-    const sim_machine_value *v = r->machine->values;
-    uint64_t cycles[SIM_BASIS_COUNT] = {0}, sum = 0;
+    memset(cycles, 0, SIM_FIELDS * sizeof *cycles);
     for (int i = 0; i < LRB_CLASS_COUNT; i++) {
         lrb_cost_class k = (lrb_cost_class)i;
-        cycles[v[sim_class_field(k, SIM_KEY_throughput)].basis] += issued[k] + s.busy[k];
+        cycles[sim_class_field(k, SIM_KEY_throughput)] += issued[k] + s.busy[k];
         for (int kind = 0; kind < SIM_CONSUMERS; kind++) {
             size_t field = sim_class_field(k, latency_key[kind]);
-            cycles[v[v[field].given ? field : sim_class_field(k, SIM_KEY_latency)].basis] += s.operand[k][kind];
+            cycles[r->machine->values[field].given ? field : sim_class_field(k, SIM_KEY_latency)] += s.operand[k][kind];
         }
     }
-    add_plain_bases(&s, v, cycles);
-    for (int i = 0; i < SIM_BASIS_COUNT; i++)
-        sum += cycles[i];
+    charge_plain_fields(&s, cycles);
+}
+
+void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
+{
+    uint64_t by_field[SIM_FIELDS], cycles[SIM_BASIS_COUNT] = {0}, sum = 0;
+    stats_cycles_by_field(r, by_field);
+    for (size_t field = 0; field < SIM_FIELDS; field++) {
+        cycles[r->machine->values[field].basis] += by_field[field];
+        sum += by_field[field];
+    }
     for (int i = 0; i < SIM_BASIS_COUNT; i++)
         share[i] = sum ? (double)cycles[i] / (double)sum : 0;
 }
