@@ -23,8 +23,10 @@ static base_status next_tile(sim_core *s, core_thread *h, const sim_core_feed *f
             s->working--;
             return BASE_OK;
         }
-        if (core_begin_tile(s, h, events, count))
+        if (core_begin_tile(s, h, events, count)) {
+            h->price = h->op->price;
             return BASE_OK;
+        }
         end_tile(s, h, feed);
     }
 }
@@ -47,18 +49,18 @@ static inline uint64_t keep_scalar(uint64_t number)
     return number;
 }
 
+static inline sim_blamed later(sim_blamed a, sim_blamed b) { return a > b ? a : b; }
+
 /* When the thread's next op can issue, as far as its operands, its class and what blocks the thread are concerned. Which thread
  * issues next varies so much that the host cannot foresee what its op waits for: so sources are compared without branches. */
-static inline sim_blamed earliest(const sim_core *s, const core_thread *h)
+static inline sim_blamed earliest(const sim_core *s, core_thread *h)
 {
     const core_op *op = h->op;
-    const sim_op_price *p = op->price;
+    const sim_op_price *p = h->price = op->price;
     const sim_blamed *ready = h->results->ready;
-    sim_blamed at = h->start;
-    for (unsigned i = 0; i < SIM_MAX_SOURCES; i++) {
-        sim_blamed mine = keep_scalar(ready[op->source[i]]);
-        at = mine > at ? mine : at;
-    }
+    const sim_blamed first = later(keep_scalar(ready[op->source[0]]), keep_scalar(ready[op->source[1]]));
+    const sim_blamed second = later(keep_scalar(ready[op->source[2]]), keep_scalar(ready[op->source[3]]));
+    sim_blamed at = later(later(first, second), h->start);
     if (h->late_until > sim_time_of(at))
         need_late(s, h, p, op->event, &at);
     if (h->stores_until > at && p->flags & SIM_PRICE_READS)
@@ -74,7 +76,7 @@ enum { ACCESS = SIM_PRICE_READS | SIM_PRICE_STORE };
 static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_t now)
 {
     const lrb_event *e = h->op->event;
-    if (h->op->price->flags & ACCESS) {
+    if (h->price->flags & ACCESS) {
         uint64_t free_at = h->misses.free_at;
         return free_at > now && sim_hierarchy_would_miss(s->memory, core_line_of(s, h, e), now) ? sim_blame(free_at, SIM_BUCKET_MISSES) : 0;
     }
@@ -90,7 +92,7 @@ static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_
 static inline bool may_be_held(const sim_core *s, const core_thread *h, uint64_t now)
 {
     return (h->misses.free_at > now || s->prefetches.free_at > now) &&
-           h->op->price->flags & (ACCESS | SIM_PRICE_HINT);
+           h->price->flags & (ACCESS | SIM_PRICE_HINT);
 }
 
 static inline void access_memory(sim_core *s, core_thread *h, const sim_op_price *p, const lrb_event *e)
@@ -110,13 +112,11 @@ static inline void access_memory(sim_core *s, core_thread *h, const sim_op_price
 /* The thread's next op issues in this cycle. */
 static inline void perform(sim_core *s, core_thread *h, const bool joined)
 {
-    const sim_op_price *p = h->op->price;
+    const sim_op_price *p = h->price;
     const lrb_event *e = h->op->event;
-    const uint32_t last = s->window - 1, number = h->next;
     h->start = sim_end_of_cycle(h->now);
     h->partners = p->partners;
-    sim_put_result(&h->results[number & last], &p->latency, h->now);
-    h->results[(number + 1) & last] = (sim_result){{0}};
+    sim_put_result(&h->results[h->next & (s->window - 1)], &p->latency, h->now);
     if (p->flags & ACCESS)
         access_memory(s, h, p, e);
     if (p->flags & (SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT | SIM_PRICE_TOLD)) {
@@ -129,7 +129,7 @@ static inline void perform(sim_core *s, core_thread *h, const bool joined)
         if (p->flags & SIM_PRICE_TOLD)
             core_tell_op(s, h, e, joined);
     }
-    h->next = number + 1;
+    h->next++;
     h->op++;
 }
 
@@ -152,10 +152,10 @@ static bool share_memory(sim_core *s, const core_thread *h, const lrb_event *fir
 /* May the next op, which can issue at `at`, join the one that has just issued? */
 static inline bool joins(sim_core *s, const core_thread *h, const lrb_event *first, sim_blamed at)
 {
-    const unsigned partner = h->partners >> h->op->price->class_id & 1;
+    const unsigned partner = h->partners >> h->price->class_id & 1;
     if (!(partner & (unsigned)(at == h->start)))
         return false;
-    return !(h->op->price->flags & (ACCESS | SIM_PRICE_HINT)) ||
+    return !(h->price->flags & (ACCESS | SIM_PRICE_HINT)) ||
            (!held_by_lines(s, h, s->now) && share_memory(s, h, first, h->op->event));
 }
 
@@ -294,7 +294,7 @@ base_status sim_core_run(sim_core *s, const sim_core_feed *feed, base_error *err
         const sim_blamed gap_end = sim_blame(cycle + s->gap, SIM_BUCKET_NONE);
         at = at > gap_end ? at : gap_end;
         core_set_turn(s, t, at);
-        const uint64_t others = first_turn(s, t, (cycle + 1) * CORE_TURN), own = sim_time_of(at) * CORE_TURN + s->threads;
+        const uint64_t others = first_turn(s, t, (cycle + 1) * CORE_TURN), own = sim_without_bucket(at) + s->threads;
         turn = own < others ? own : others;
     }
     if (status == BASE_OK)

@@ -29,7 +29,7 @@ static bool slots_create(sim_slots *slots, unsigned count)
 static bool thread_create(sim_core *s, unsigned t)
 {
     core_thread *h = &s->thread[t];
-    h->results = calloc(s->window, sizeof *h->results);
+    h->results = calloc(s->window + 1, sizeof *h->results);
     h->late = calloc(s->late_window, sizeof *h->late);
     h->scratch = t * LRB_SCRATCH_BYTES;
     return slots_create(&h->misses, s->machine->memory.demand_misses_per_thread) && h->results && h->late;

@@ -82,7 +82,7 @@ static void keep_busy(sim_core *s, const core_thread *h, const sim_op_price *p)
     s->class_free[p->class_id] = until;
     for (unsigned t = 0; t < s->threads; t++) {
         core_thread *other = &s->thread[t];
-        if (other == h || s->turn[t] == CORE_NEVER || other->op->price->class_id != p->class_id ||
+        if (other == h || s->turn[t] == CORE_NEVER || other->price->class_id != p->class_id ||
             sim_blame(s->turn[t] / CORE_TURN, s->why[t]) >= until)
             continue;
         core_settle(s, other, s->now + 1);

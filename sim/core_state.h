@@ -11,8 +11,8 @@
 #include "sim/profile_charge.h"
 #include "sim/slots.h"
 
-/* Turns leave room for a thread's place in the order of choice. */
-enum { CORE_TURN = 128 };
+/* Turns are blamed times that have a thread's place in the order of choice instead of the bucket. */
+enum { CORE_TURN = 256 };
 #define CORE_NEVER (UINT64_MAX - (CORE_TURN - 1))
 
 enum { CORE_OPS = 512 };
@@ -29,7 +29,7 @@ typedef struct core_late_result {
 typedef struct core_op {
     const sim_op_price *price;
     const lrb_event *event;
-    uint16_t source[SIM_MAX_SOURCES]; /* where in the thread's results each one's is, by kind of consumer; 0 stands in the op's own place */
+    uint16_t source[SIM_MAX_SOURCES]; /* where in the thread's results each one's is, by kind of consumer; that behind the window if there is none */
     uint32_t pause;                   /* markers before the op; CORE_END: there is no op here */
 } core_op;
 
@@ -39,10 +39,11 @@ enum { CORE_BLOCK = 64 };
 /* A hardware thread. Times are cycles, or blamed times where the type says so. */
 typedef struct core_thread {
     const core_op *op;  /* that issues next */
+    const sim_op_price *price; /* its price, once it is known when the op can issue */
     sim_blamed now;     /* of the last issue, bucket 0 */
     sim_blamed start;   /* the next op issues later than this, unless it joins */
     uint64_t waits_from; /* cycles before this are in a bucket, or in the gap */
-    sim_result *results; /* of the youngest ops */
+    sim_result *results; /* of the youngest ops, and a last one that is always 0 */
     uint32_t next;      /* number of the next op */
     uint32_t tile_first; /* number of the tile's first op */
     uint32_t partners;  /* set of classes of which an op may join the last one in V */
@@ -101,7 +102,7 @@ struct sim_core {
 /** Set when a thread's next op can issue, and the bucket to blame. */
 static inline void core_set_turn(sim_core *s, unsigned t, sim_blamed ready)
 {
-    s->turn[t] = s->turn[t + s->threads] = sim_time_of(ready) * CORE_TURN;
+    s->turn[t] = s->turn[t + s->threads] = sim_without_bucket(ready);
     s->why[t] = (uint8_t)(ready & 0xff);
 }
 

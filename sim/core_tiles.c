@@ -41,14 +41,15 @@ static inline four_sources load_four(const uint16_t numbers[SIM_MAX_SOURCES])
     return four;
 }
 
-/* Where the sources of an op are among the results. Those that it does not have, and those of long ago, are read from the place
-   of its own result, which is 0 until it issues. */
+/* Where the sources of an op are among the results. Those that it does not have, and those of long ago, are 0: behind the window. */
 static inline void place_sources(core_op *op, uint32_t number, uint32_t window)
 {
-    const four_sources distance = load_four(op->event->src), far = (four_sources)(distance >= (uint16_t)window);
-    const four_sources place = ((uint16_t)number - (distance & ~far)) & (uint16_t)(window - 1);
+    const four_sources distance = load_four(op->event->src);
+    const four_sources recent = (four_sources)(distance - 1 < (uint16_t)(window - 1));
+    const four_sources place = ((uint16_t)number - distance) & (uint16_t)(window - 1);
     const four_sources source = place * SIM_CONSUMERS + load_four(op->price->consumer);
-    memcpy(op->source, &source, sizeof source);
+    const four_sources chosen = (source & recent) | ((uint16_t)(window * SIM_CONSUMERS) & ~recent);
+    memcpy(op->source, &chosen, sizeof chosen);
 }
 
 /* Lanes of the ops of a phase. */

@@ -11,19 +11,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/recorder.h"
 #include "kernels/kernel.h"
 #include "lrbni/ctx.h"
 #include "scene/scene.h"
+#include "sim/core.h"
 #include "sim/issue.h"
 #include "sim/machine.h"
 #include "tests/bench/embree_packets.h"
 #include "tests/bench/measure.h"
 
 /* Ways to trace an image, in the order in which they take turns. */
-typedef enum way { WAY_NATIVE, WAY_COUNT, WAY_RECORD, WAY_ISSUE, WAY_EMBREE, WAY_EMBREE_ROBUST, WAYS } way;
-static const char *const way_names[WAYS] = {"native", "count", "record", "record+issue", "embree16", "embree16-robust"};
+typedef enum way { WAY_NATIVE, WAY_COUNT, WAY_RECORD, WAY_ISSUE, WAY_CORE, WAY_EMBREE, WAY_EMBREE_ROBUST, WAYS } way;
+static const char *const way_names[WAYS] = {"native", "count", "record", "record+issue", "record+core", "embree16", "embree16-robust"};
 
-static const double target_count_ratio = 1.5, target_count_vector_ops = 500e6, target_issue_events = 150e6;
+static const double target_count_ratio = 1.5, target_count_vector_ops = 500e6, target_issue_events = 150e6,
+                    target_core_events = 80e6;
 
 typedef struct bench_options {
     unsigned size;
@@ -37,6 +40,7 @@ typedef struct bench {
     kernel_job *job;
     lrb_ctx *ctx[WAY_ISSUE + 1];
     sim_issue *issue;
+    const sim_machine *machine;
     embree_packets *embree[2]; /* without and with the robust flag; NULL: no Embree */
     int repeat;
     double seconds[WAYS][MEASURE_MAX_RUNS];
@@ -70,6 +74,46 @@ static void trace_kernel(bench *b, way w)
     b->rays = n.n[KERNEL_rays];
 }
 
+/* Tiles for a simulated core, recorded when it asks for them. */
+typedef struct core_feed {
+    recorder recorder;
+    recording *tiles; /* by hardware thread */
+    size_t next, count;
+} core_feed;
+
+static base_status next_tile(void *user, unsigned thread, const lrb_event **events, size_t *count, base_error *err)
+{
+    core_feed *f = user;
+    *events = NULL;
+    if (f->next == f->count)
+        return BASE_OK;
+    base_status status = recorder_tile(&f->recorder, f->next++, &f->tiles[thread], err);
+    *events = status == BASE_OK ? f->tiles[thread].events : NULL;
+    *count = f->tiles[thread].count;
+    return status;
+}
+
+/* Trace the image once with a core that is cold at first. */
+static void trace_core(bench *b)
+{
+    core_feed f = {.count = kernel_job_tiles(b->job), .tiles = calloc(b->machine->threads, sizeof *f.tiles)};
+    const sim_core_feed feed = {.next = next_tile, .user = &f};
+    sim_core *core = NULL;
+    base_error err = {0};
+    base_status status = recorder_create(b->kernel, b->job, b->machine, NULL, &f.recorder, &err);
+    if (status == BASE_OK)
+        status = sim_core_create(b->machine, &core, &err);
+    if (status == BASE_OK)
+        status = sim_core_run(core, &feed, &err);
+    if (status != BASE_OK)
+        exit(fail(&err));
+    for (unsigned t = 0; t < b->machine->threads; t++)
+        recording_free(&f.tiles[t]);
+    free(f.tiles);
+    sim_core_destroy(&core);
+    recorder_destroy(&f.recorder);
+}
+
 static void trace_embree(bench *b, int robust)
 {
     const uint32_t tiles = kernel_job_tiles(b->job);
@@ -86,8 +130,10 @@ static bool has_way(const bench *b, way w)
 static double time_way(bench *b, way w)
 {
     double start = measure_seconds();
-    if (w < WAY_EMBREE)
+    if (w < WAY_CORE)
         trace_kernel(b, w);
+    else if (w == WAY_CORE)
+        trace_core(b);
     else
         trace_embree(b, w == WAY_EMBREE_ROBUST);
     return measure_seconds() - start;
@@ -131,7 +177,7 @@ static void print_rows(const bench *b)
                seconds / seconds_of(b, WAY_NATIVE));
         print_rate(w < WAY_EMBREE, b->ops, seconds);
         print_rate(w < WAY_EMBREE, b->vector_ops, seconds);
-        print_rate(w == WAY_RECORD || w == WAY_ISSUE, b->events, seconds);
+        print_rate(w == WAY_RECORD || w == WAY_ISSUE || w == WAY_CORE, b->events, seconds);
         print_rate(true, b->rays, seconds);
         printf("\n");
     }
@@ -158,7 +204,7 @@ static void print_table(const bench *b)
         printf("# %-16s %9.4f %9.2f", way_names[w], seconds, seconds / seconds_of(b, WAY_NATIVE));
         print_million(w < WAY_EMBREE, b->ops, seconds);
         print_million(w < WAY_EMBREE, b->vector_ops, seconds);
-        print_million(w == WAY_RECORD || w == WAY_ISSUE, b->events, seconds);
+        print_million(w == WAY_RECORD || w == WAY_ISSUE || w == WAY_CORE, b->events, seconds);
         print_million(true, b->rays, seconds);
         printf("\n");
     }
@@ -181,6 +227,8 @@ static void print_targets(const bench *b)
     print_target("count is native times", count / seconds_of(b, WAY_NATIVE), target_count_ratio, true, "");
     print_target("16-lane ops in count", 1e-6 * (double)b->vector_ops / count, 1e-6 * target_count_vector_ops, false, " M/s");
     print_target("events in record+issue", 1e-6 * (double)b->events / seconds_of(b, WAY_ISSUE), 1e-6 * target_issue_events, false,
+                 " M/s");
+    print_target("events in record+core", 1e-6 * (double)b->events / seconds_of(b, WAY_CORE), 1e-6 * target_core_events, false,
                  " M/s");
 }
 
@@ -207,7 +255,7 @@ static void destroy(bench *b)
 static base_status bench_kernel(const kernel_info *kernel, const scene *s, const sim_machine *machine, embree_packets *embree[2],
                                 const bench_options *o, base_error *err)
 {
-    bench b = {.kernel = kernel, .scene_name = s->name, .embree = {embree[0], embree[1]}, .repeat = o->repeat};
+    bench b = {.kernel = kernel, .scene_name = s->name, .machine = machine, .embree = {embree[0], embree[1]}, .repeat = o->repeat};
     bvh_options build = bvh_options_default();
     const scene_camera *camera;
     bvh *tree = NULL;

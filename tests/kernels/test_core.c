@@ -1,0 +1,73 @@
+/* The core model on recorded kernels: the fast simulator and the slow one give the same numbers. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <stdlib.h>
+
+#include "cli/recorder.h"
+#include "scene/scene.h"
+#include "tests/kernels/trace.h"
+#include "tests/sim/core_pair.h"
+
+enum { SIZE = 44, TILES = 9 }; /* a tile is 16 pixels wide */
+
+static void record(const kernel_info *kernel, const scene *s, const sim_machine *machine, recording tiles[TILES])
+{
+    kernel_job *job = NULL;
+    recorder r;
+    bvh *tree = trace_tree(s, kernel->defaults.max_leaf);
+    assert_int_equal(kernel_job_create(tree, &s->cameras[0], SIZE, SIZE, &kernel->defaults, &job, NULL), BASE_OK);
+    assert_int_equal(kernel_job_tiles(job), TILES);
+    assert_int_equal(recorder_create(kernel, job, machine, NULL, &r, NULL), BASE_OK);
+    for (size_t i = 0; i < TILES; i++)
+        assert_int_equal(recorder_tile(&r, i, &tiles[i], NULL), BASE_OK);
+    recorder_destroy(&r);
+    kernel_job_destroy(&job);
+    bvh_destroy(&tree);
+}
+
+static void compare(const kernel_info *kernel, const scene *s, const char *machine_name)
+{
+    static core_pair p;
+    recording tiles[TILES] = {{0}};
+    sim_machine *machine = NULL;
+    assert_int_equal(sim_machine_load(machine_name, &machine, NULL), BASE_OK);
+    record(kernel, s, machine, tiles);
+    p.count = TILES;
+    for (size_t i = 0; i < TILES; i++)
+        p.tiles[i] = (slow_core_tile){.events = tiles[i].events, .count = tiles[i].count};
+    if (!core_pair_run(&p, machine)) {
+        core_pair_print_differences(&p);
+        fail_msg("%s on %s: the two simulators differ", kernel->name, machine_name);
+    }
+    assert_true(p.fast.cycles > 10000);
+    for (size_t i = 0; i < TILES; i++)
+        recording_free(&tiles[i]);
+    sim_machine_destroy(&machine);
+}
+
+static void recorded__every_kernel_and_machine__fast_equals_slow(void **state)
+{
+    (void)state;
+    size_t kernels, machines;
+    const kernel_info *kernel = kernel_list(&kernels);
+    const char *const *names = sim_machine_names(&machines);
+    scene *s = NULL;
+    assert_int_equal(scene_open("builtin:rooms-804", &s, NULL), BASE_OK);
+    for (size_t k = 0; k < kernels; k++)
+        for (size_t m = 0; m < machines; m++)
+            compare(&kernel[k], s, names[m]);
+    scene_destroy(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(recorded__every_kernel_and_machine__fast_equals_slow),
+    };
+    return cmocka_run_group_tests_name("kernels/core", tests, NULL, NULL);
+}
