@@ -157,7 +157,8 @@ static base_status gather_columns(trace_encoder *e)
         trace_column_put(&e->plain, (uint32_t)trace_column_size(&e->column[i]), 4);
     for (int i = 0; i < TRACE_COLUMNS && status == BASE_OK; i++) {
         size = trace_column_size(&e->column[i]);
-        memcpy(e->plain.next, e->column[i].bytes, size);
+        if (size) /* nothing may have no address */
+            memcpy(e->plain.next, e->column[i].bytes, size);
         e->plain.next += size;
     }
     return status;
