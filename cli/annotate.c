@@ -14,7 +14,7 @@ static double percent(uint64_t part, uint64_t whole)
     return whole ? 100 * (double)part / (double)whole : 0;
 }
 
-/* The largest of the waits and its share of the place's cycles: "operand_vector_alu 62 %"; empty if nothing waited. */
+/* The largest of the waits and its share of the place's cycles: "operand_vector_alu 62 %"; empty if that is below a half percent. */
 static void main_wait(const sim_place *cost, char text[WAIT_SIZE])
 {
     json_t *stalls = stats_stalls_json(&cost->cycles), *value;
@@ -26,7 +26,7 @@ static void main_wait(const sim_place *cost, char text[WAIT_SIZE])
             largest = name;
         }
     text[0] = 0;
-    if (most)
+    if (percent((uint64_t)most, sim_cycles_sum(&cost->cycles)) >= 0.5)
         snprintf(text, WAIT_SIZE, "%s %.0f %%", largest, percent((uint64_t)most, sim_cycles_sum(&cost->cycles)));
     json_decref(stalls);
 }

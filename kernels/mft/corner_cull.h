@@ -36,17 +36,18 @@ LRB_INLINE void corner_cull_guard(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch
         lrb_store_ps(c, lrb_at(scratch, SCRATCH_MINUS_GUARD), lrb_sub_ps(c, zero, guard));
 }
 
-/* Smallest and largest volume over one edge among the four corner rays: triangle16_edge with the factors exchanged. */
+/* Smallest and largest volume over one edge among the four corner rays: triangle16_edge with the factors exchanged, for the four
+   side by side, so that none waits for its own last product. */
 LRB_INLINE void corner_cull_range(lrb_ctx *c, lrb_ptr scratch, int edge, bool cull, lrb_v16f *smallest, lrb_v16f *largest)
 {
     lrb_v16f plane[3], volume[4];
     for (int axis = 0; axis < 3; axis++)
         plane[axis] = lrb_load_1to16_ps(c, lrb_at(scratch, edge + triangle16_component[axis]));
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 4; k++)
         volume[k] = lrb_mul_ps_s3(c, plane[0], lrb_full_ps(corner_cull_ray(scratch, k, 0)));
-        volume[k] = lrb_madd231_ps_s3(c, volume[k], plane[1], lrb_full_ps(corner_cull_ray(scratch, k, 1)));
-        volume[k] = lrb_madd231_ps_s3(c, volume[k], plane[2], lrb_full_ps(corner_cull_ray(scratch, k, 2)));
-    }
+    for (int axis = 1; axis < 3; axis++)
+        for (int k = 0; k < 4; k++)
+            volume[k] = lrb_madd231_ps_s3(c, volume[k], plane[axis], lrb_full_ps(corner_cull_ray(scratch, k, axis)));
     lrb_v16f half = lrb_min_ps(c, volume[0], volume[1]);
     lrb_v16f other = lrb_min_ps(c, volume[2], volume[3]);
     *smallest = lrb_min_ps(c, half, other);
