@@ -15,7 +15,7 @@ LRB_INLINE void lrb_at_line(lrb_ctx *c, uint32_t site)
 {
     if (c->line != site) {
         c->line = site;
-        lrb_mark(c, LRB_OP_line, site);
+        lrb_line(c, site);
     }
 }
 

@@ -45,7 +45,7 @@ static inline uint32_t lrb_form_bytes(unsigned form)
 typedef struct lrb_event {
     uint16_t op;     /* id and form */
     uint16_t mask;   /* 32-bit words of the vector that are written, 0xffff if unmasked: two a lane of an 8-wide op; of a
-                        branch: 1 if taken; of `far`: a source */
+                        branch: 1 if taken */
     uint16_t src[4]; /* 0: first source or address base; 1: S3, second source, or address index; 2: mask; 3: old
                         destination or stored data */
     uint32_t aux;    /* memory: simulated address; delay: its cycles; branch: site; marker: its number; otherwise 0 */

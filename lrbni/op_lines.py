@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 
-NO_OPS = {'lrb_phase', 'lrb_region'}  # markers, which belong to no line
+NO_OPS = {'lrb_phase', 'lrb_region', 'lrb_line', 'lrb_far'}  # markers, which belong to no line
 NO_OPS_OF = ('emit.h',)  # what ops are made of
 
 FUNCTION = re.compile(r'always_inline\)\)\s+([\w\s*]*?)\b(lrb_\w+)\s*\(\s*lrb_ctx\s*\*\s*c\s*(?:,([^()]*))?\)\s*\{')

@@ -110,7 +110,7 @@ void sim_registers_events(void *registers, const lrb_event *events, uint32_t cou
         if (id == LRB_OP_phase)
             r->phase = (uint8_t)(e->aux < SIM_MAX_PHASES ? e->aux : SIM_MAX_PHASES - 1);
         else if (id == LRB_OP_far)
-            r->far[e->mask % SOURCES] = e->aux;
+            r->far[e->aux % SOURCES] = e->aux / SOURCES;
         else if (lrb_op_table[id].shape != LRB_SHAPE_MARK)
             append(r, e);
     }

@@ -71,7 +71,7 @@ static void check_line(uint32_t site, unsigned id)
 /* A marker of a far source: too far, and not as far as the tile's beginning. */
 static void check_far(const lrb_event *e, size_t ops)
 {
-    assert_true(e->mask < 4 && e->aux >= LRB_FAR && e->aux <= ops);
+    assert_true(e->aux >> 2 >= LRB_FAR && e->aux >> 2 <= ops);
 }
 
 /* The streams of a tile, side by side; returns the number of lines' markers. */

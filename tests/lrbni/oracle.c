@@ -194,6 +194,8 @@ bool ref_jcc(ref_flags flags, ref_condition condition)
 bool ref_jmp(void) { return true; }
 uint32_t ref_phase(uint32_t number) { return number; }
 uint32_t ref_region(uint32_t number) { return number; }
+uint32_t ref_line(uint32_t number) { return number; }
+uint32_t ref_far(uint32_t number) { return number; }
 
 uint32_t ref_prefetch1(uint32_t address) { return address; }
 uint32_t ref_prefetch2(uint32_t address) { return address; }

@@ -164,7 +164,7 @@ static void pressure__far_source__lives_until_then(void **state)
     assert_non_null(events);
     for (uint32_t i = 0; i < OPS; i++)
         events[i] = op(LRB_OP_load_ps, 0, 0, 0, 0);
-    events[OPS] = (lrb_event){.op = LRB_OP_far, .mask = 1, .aux = OPS};
+    events[OPS] = (lrb_event){.op = LRB_OP_far, .aux = OPS << 2 | 1};
     events[OPS + 1] = op(LRB_OP_mov_ps, 0, 0, 0, 0);
     assert_int_equal(analyse(no_limits, events, OPS + 2).pressure[0][SIM_FILE_VECTOR].live, 2 * OPS);
     events[OPS].op = LRB_OP_line; /* nothing is said */
