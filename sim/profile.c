@@ -107,6 +107,8 @@ void sim_profile_issue(sim_profile *p, sim_whereabouts *at, unsigned id, unsigne
 void sim_profile_wait(sim_profile *p, sim_whereabouts *at, unsigned id, unsigned bucket, uint64_t cycles)
 {
     sim_cost *costs[KINDS];
+    if (cycles == 0) /* and nothing is to blame */
+        return;
     costs_of(p, at, id, costs);
     for (int k = 0; k < KINDS; k++)
         costs[k]->waited[bucket] += cycles;
