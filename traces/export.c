@@ -102,14 +102,14 @@ const char *export_form_name(uint16_t op)
         [0] = "",
         [LRB_FORM_SWIZZLE >> 12] = "swizzle",
         [LRB_FORM_MEMORY >> 12] = "memory",
-        [LRB_FORM_4_BYTES >> 12] = "1to16",
-        [LRB_FORM_8_BYTES >> 12] = "1to8",
-        [LRB_FORM_16_BYTES >> 12] = "4to16",
-        [LRB_FORM_32_BYTES >> 12] = "4to8",
-        [(LRB_FORM_MEMORY | LRB_FORM_4_BYTES) >> 12] = "memory 1to16",
-        [(LRB_FORM_MEMORY | LRB_FORM_8_BYTES) >> 12] = "memory 1to8",
-        [(LRB_FORM_MEMORY | LRB_FORM_16_BYTES) >> 12] = "memory 4to16",
-        [(LRB_FORM_MEMORY | LRB_FORM_32_BYTES) >> 12] = "memory 4to8",
+        [LRB_FORM_4_BYTES >> 12] = "4 bytes",
+        [LRB_FORM_8_BYTES >> 12] = "8 bytes",
+        [LRB_FORM_16_BYTES >> 12] = "16 bytes",
+        [LRB_FORM_32_BYTES >> 12] = "32 bytes",
+        [(LRB_FORM_MEMORY | LRB_FORM_4_BYTES) >> 12] = "memory 4 bytes",
+        [(LRB_FORM_MEMORY | LRB_FORM_8_BYTES) >> 12] = "memory 8 bytes",
+        [(LRB_FORM_MEMORY | LRB_FORM_16_BYTES) >> 12] = "memory 16 bytes",
+        [(LRB_FORM_MEMORY | LRB_FORM_32_BYTES) >> 12] = "memory 32 bytes",
     };
     const char *name = names[op >> 12];
     return name ? name : "other";

@@ -72,7 +72,7 @@ struct trace_export {
 /** Name of a phase, or "phase 17" in `text`. */
 const char *export_phase_name(const trace_export *x, uint32_t phase, char text[16]);
 
-/** How the last source of an op was given: "", "swizzle", "memory 1to16", ... */
+/** How the last source of an op was given: "", "swizzle", "memory 4 bytes", ... */
 const char *export_form_name(uint16_t op);
 
 #endif

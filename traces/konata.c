@@ -62,7 +62,7 @@ static uint64_t *id_of(trace_export *x, unsigned thread, uint32_t number)
     return &x->konata.ids[thread * (size_t)KONATA_REMEMBERED + number % KONATA_REMEMBERED];
 }
 
-/* "vmadd231ps 0x00ff [0x00001000 1to16]" */
+/* "vmadd231ps 0x00ff [0x00001000 memory 4 bytes]" */
 static void write_op(trace_export *x, const lrb_event *e)
 {
     lrb_op_id id = (lrb_op_id)(e->op & LRB_EVENT_ID);

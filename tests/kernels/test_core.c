@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/recorder.h"
 #include "scene/scene.h"
@@ -45,6 +46,8 @@ static void compare(const kernel_info *kernel, const scene *s, const char *machi
         fail_msg("%s on %s: the two simulators differ", kernel->name, machine_name);
     }
     assert_true(p.fast.cycles > 10000);
+    if (strcmp(machine_name, "ideal") == 0) /* it has no stalls */
+        assert_int_equal(p.fast.cycles, p.fast.core.issued_one + p.fast.core.issued_pair);
     for (size_t i = 0; i < TILES; i++)
         recording_free(&tiles[i]);
     sim_machine_destroy(&machine);

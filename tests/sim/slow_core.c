@@ -89,9 +89,9 @@ static uint64_t line_of(const slow_core *s, const slow_thread *t, const lrb_even
 
 static unsigned bytes_of(const lrb_event *e)
 {
-    if (!is_vector(e))
-        return 4;
-    return lrb_form_bytes(e->op) ? lrb_form_bytes(e->op) : 64;
+    static const unsigned bytes_of_form[16] = {[0x4] = 4, [0x5] = 8, [0xc] = 16, [0xd] = 32}; /* event.h: the top bits of op */
+    const unsigned bytes = bytes_of_form[(e->op & LRB_FORM_BYTES) >> 12];
+    return !is_vector(e) ? 4 : bytes ? bytes : 64;
 }
 
 /* The 32-bit words of its 64 bytes that an access touches. */
@@ -112,7 +112,7 @@ static sim_consumer consumer_of(const lrb_event *e, int i)
     const char read = lrb_shape_table[info_of(e)->shape].reads[i];
     if (i == 1 && e->op & LRB_FORM_MEMORY)
         return SIM_CONSUMER_ADDRESS;
-    if (i == 1 && e->op & LRB_FORM_SWIZZLE && lrb_shape_table[info_of(e)->shape].access == LRB_ACCESS_NONE)
+    if (i == 1 && e->op & LRB_FORM_SWIZZLE && lrb_op_access_of((lrb_op_id)id_of(e)) == LRB_ACCESS_NONE)
         return SIM_CONSUMER_SHUFFLE;
     return read == 'a' ? SIM_CONSUMER_ADDRESS : read == 'e' ? SIM_CONSUMER_SHUFFLE : read == 'b' ? SIM_CONSUMER_BRANCH : SIM_CONSUMER_PLAIN;
 }

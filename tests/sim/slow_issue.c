@@ -110,6 +110,8 @@ static uint32_t words_touched(const lrb_event *e)
     uint32_t first = e->aux % 64 / 4;
     static const uint32_t words_of_form[16] = {[0x4] = 1, [0x5] = 2, [0xc] = 4, [0xd] = 8}; /* event.h: the top bits of op */
     uint32_t many = is_vector(e) ? words_of_form[(e->op & LRB_FORM_BYTES) >> 12] : 1;
+    if (info_of(e)->class_id == LRB_CLASS_vector_gather || info_of(e)->class_id == LRB_CLASS_vector_scatter)
+        return 0xffff;
     if (many == 0)
         return e->mask;
     for (uint32_t word = first; word < first + many && word < 16; word++)

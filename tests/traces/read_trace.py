@@ -224,7 +224,9 @@ def csv_tiles(path, tiles):
     """The same as the program tells them."""
     csv_path = path + '.csv'
     subprocess.run([PROGRAM, 'replay', path, '--model', 'issue', '--export', 'csv', '--out', csv_path], check=True)
-    forms = {'': 0, 'swizzle': 1, 'memory': 2, '1to16': 4, 'memory 1to16': 6, '4to16': 12, 'memory 4to16': 14}
+    forms = {'': 0, 'swizzle': 1}
+    for number, size in ((0, ''), (4, '4 bytes'), (5, '8 bytes'), (12, '16 bytes'), (13, '32 bytes')):
+        forms.update({size: number, ('memory ' + size).strip(): number | 2})
     ids = {name: number for number, (name, _, _) in enumerate(OPS)}
     result = [[] for _ in range(tiles)]
     with open(csv_path, encoding='ascii', newline='') as file:
