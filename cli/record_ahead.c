@@ -74,7 +74,8 @@ static void *help(void *user)
     return NULL;
 }
 
-base_status record_ahead_start(recorder *recorders, unsigned count, size_t tiles, unsigned held, record_ahead **out, base_error *err)
+base_status record_ahead_start(recorder *recorders, unsigned count, size_t tiles, unsigned held, record_ahead **out,
+                               base_error *err)
 {
     record_ahead *a = calloc(1, sizeof *a);
     *out = a;

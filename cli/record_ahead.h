@@ -15,7 +15,8 @@ typedef struct record_ahead record_ahead;
  *
  * Errors: BASE_ERR_NOMEM, also if the host has no thread to give.
  */
-base_status record_ahead_start(recorder *recorders, unsigned count, size_t tiles, unsigned held, record_ahead **out, base_error *err);
+base_status record_ahead_start(recorder *recorders, unsigned count, size_t tiles, unsigned held, record_ahead **out,
+                               base_error *err);
 
 /** Wait for a tile; tiles are asked for in order. Errors: those of recorder_tile. */
 base_status record_ahead_take(record_ahead *a, size_t tile, recording **out, base_error *err);

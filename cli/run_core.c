@@ -169,7 +169,9 @@ static base_status collect(const chip *c, unsigned jobs, base_error *err)
 
 base_status run_core(run_result *result, const recorder_input *input, progress *bar, base_error *err)
 {
-    const unsigned jobs = result->options.jobs, cores = result->machine->cores;
+    enum { MAX_RECORDERS = 5 }; /* of a single core: more are faster than it can be */
+    const unsigned cores = result->machine->cores, most = cores > 1 ? cores : MAX_RECORDERS;
+    const unsigned jobs = result->options.jobs < most ? result->options.jobs : most;
     chip c = {.result = result, .input = input, .bar = bar};
     c.recorders = calloc(jobs, sizeof *c.recorders);
     c.stats = calloc(cores, sizeof *c.stats);

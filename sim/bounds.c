@@ -119,7 +119,8 @@ uint64_t sim_bound_ports(const sim_machine *machine, const uint64_t *ops)
 /* Cycles in which a level sends the lines of a core, but for the last ones that may still be waiting. */
 static uint64_t lines_bound(const sim_machine *machine, uint64_t lines, uint64_t tenths)
 {
-    const uint64_t waiting = (uint64_t)machine->threads * machine->memory.demand_misses_per_thread + machine->memory.prefetches_per_core;
+    const uint64_t waiting =
+        (uint64_t)machine->threads * machine->memory.demand_misses_per_thread + machine->memory.prefetches_per_core;
     lines = divide_up(lines, machine->cores);
     return lines > waiting + 1 ? (lines - waiting - 1) * tenths / 10 : 0;
 }

@@ -78,7 +78,8 @@ static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_
     const lrb_event *e = h->op->event;
     if (h->price->flags & ACCESS) {
         uint64_t free_at = h->misses.free_at;
-        return free_at > now && sim_hierarchy_would_miss(s->memory, core_line_of(s, h, e), now) ? sim_blame(free_at, SIM_BUCKET_MISSES) : 0;
+        const bool held = free_at > now && sim_hierarchy_would_miss(s->memory, core_line_of(s, h, e), now);
+        return held ? sim_blame(free_at, SIM_BUCKET_MISSES) : 0;
     }
     uint64_t free_at = s->prefetches.free_at;
     unsigned id = e->op & LRB_EVENT_ID;

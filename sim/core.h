@@ -28,7 +28,7 @@ typedef struct sim_core_stats {
     sim_cycles core;         /* sums to cycles */
     sim_cycles threads;      /* sums to cycles x threads */
     uint64_t issued_by_class[LRB_CLASS_COUNT]; /* issue cycles, by the class of the first op */
-    uint64_t phase[SIM_MAX_PHASES];            /* core cycles by phase of the op that issued first, or was waited for; 15: 15 and beyond */
+    uint64_t phase[SIM_MAX_PHASES];            /* core cycles by phase of the op that began them or was waited for; 15: 15 and beyond */
     uint64_t phase_vector_ops[SIM_MAX_PHASES]; /* vector ops of the phase */
     uint64_t phase_idle_lanes[SIM_MAX_PHASES]; /* lanes that their masks switched off */
     uint64_t ops[LRB_OP_COUNT];       /* ops issued; markers too, which take no cycle */
@@ -44,7 +44,7 @@ typedef struct sim_core_stats {
 typedef struct sim_core_feed {
     /** The next tile for a thread, valid until the same thread is given another one; *events NULL: there is none left. */
     base_status (*next)(void *user, unsigned thread, const lrb_event **events, size_t *count, base_error *err);
-    /** The tile that a thread was given has been simulated: core cycles by region of the tile; the last one: by none. May be NULL. */
+    /** The tile of a thread has been simulated: core cycles by region of the tile; the last one: by none. May be NULL. */
     void (*done)(void *user, unsigned thread, const uint64_t regions[SIM_MAX_REGIONS + 1]);
     void *user;
 } sim_core_feed;

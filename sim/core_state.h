@@ -29,7 +29,8 @@ typedef struct core_late_result {
 typedef struct core_op {
     const sim_op_price *price;
     const lrb_event *event;
-    uint16_t source[SIM_MAX_SOURCES]; /* where in the thread's results each one's is, by kind of consumer; that behind the window if there is none */
+    uint16_t source[SIM_MAX_SOURCES]; /* where in the thread's results each one's is, by kind of consumer; behind the window if
+                                         there is none */
     uint32_t pause;                   /* markers before the op; CORE_END: there is no op here */
 } core_op;
 

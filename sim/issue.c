@@ -108,8 +108,9 @@ static void charge_profile(sim_issue *s, const sim_op_price *p, const lrb_event 
 }
 
 /* Join the op before in V, or issue in a new cycle as early as everything allows. */
-static inline __attribute__((always_inline)) void issue_op(sim_issue *s, pipeline *pipe, sim_result *results, uint32_t window, sim_blamed gap, const sim_op_price *p,
-                            const lrb_event *e, const bool profiled)
+static inline __attribute__((always_inline)) void issue_op(sim_issue *s, pipeline *pipe, sim_result *results, uint32_t window,
+                                                           sim_blamed gap, const sim_op_price *p, const lrb_event *e,
+                                                           const bool profiled)
 {
     sim_blamed at = pipe->start;
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)

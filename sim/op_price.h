@@ -44,8 +44,15 @@ typedef struct sim_result {
 enum { SIM_MAX_SOURCES = 4 };
 
 /* Flags of a price. LASTING: busy for several cycles, or blocking: rare, and kept out of the common path. */
-enum { SIM_PRICE_MARKER = 1, SIM_PRICE_READS = 2, SIM_PRICE_STORE = 4, SIM_PRICE_LASTING = 8, SIM_PRICE_BRANCH = 16, SIM_PRICE_HINT = 32,
-       SIM_PRICE_TOLD = 64 /* a profile or an observer is told of it */ };
+enum {
+    SIM_PRICE_MARKER = 1,
+    SIM_PRICE_READS = 2,
+    SIM_PRICE_STORE = 4,
+    SIM_PRICE_LASTING = 8,
+    SIM_PRICE_BRANCH = 16,
+    SIM_PRICE_HINT = 32,
+    SIM_PRICE_TOLD = 64 /* a profile or an observer is told of it */
+};
 
 /* The price of an op in one form; 64 bytes. */
 typedef struct sim_op_price {

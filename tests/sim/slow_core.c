@@ -7,7 +7,10 @@
 #include "tests/sim/slow_memory.h"
 
 /* The order of reasons that end together; operands are 0 .. RANK_L2-1. */
-enum { RANK_L2 = 1000, RANK_MEMORY, RANK_STORE, RANK_BUSY, RANK_BLOCKED, RANK_DELAY, RANK_MISPREDICT, RANK_BTB, RANK_MISSES, RANK_PREFETCHES };
+enum {
+    RANK_L2 = 1000, RANK_MEMORY, RANK_STORE, RANK_BUSY, RANK_BLOCKED, RANK_DELAY, RANK_MISPREDICT, RANK_BTB, RANK_MISSES,
+    RANK_PREFETCHES
+};
 
 /* A bucket: which number of sim_cycles. */
 #define BUCKET(member) (offsetof(sim_cycles, member) / sizeof(uint64_t))
@@ -114,12 +117,16 @@ static sim_consumer consumer_of(const lrb_event *e, int i)
         return SIM_CONSUMER_ADDRESS;
     if (i == 1 && e->op & LRB_FORM_SWIZZLE && lrb_op_access_of((lrb_op_id)id_of(e)) == LRB_ACCESS_NONE)
         return SIM_CONSUMER_SHUFFLE;
-    return read == 'a' ? SIM_CONSUMER_ADDRESS : read == 'e' ? SIM_CONSUMER_SHUFFLE : read == 'b' ? SIM_CONSUMER_BRANCH : SIM_CONSUMER_PLAIN;
+    return read == 'a'   ? SIM_CONSUMER_ADDRESS
+           : read == 'e' ? SIM_CONSUMER_SHUFFLE
+           : read == 'b' ? SIM_CONSUMER_BRANCH
+                         : SIM_CONSUMER_PLAIN;
 }
 
 static unsigned latency_to(const sim_class_cost *cost, sim_consumer consumer)
 {
-    const unsigned latency[SIM_CONSUMERS] = {cost->latency, cost->latency_to_shuffle, cost->latency_to_branch, cost->latency_to_address};
+    const unsigned latency[SIM_CONSUMERS] = {cost->latency, cost->latency_to_shuffle, cost->latency_to_branch,
+                                             cost->latency_to_address};
     return latency[consumer];
 }
 
@@ -163,7 +170,8 @@ static reason held_up(const slow_core *s, const slow_thread *t)
 static reason held_by_lines(slow_core *s, const slow_thread *t)
 {
     const lrb_event *e = &t->tile->events[t->at];
-    const unsigned id = id_of(e), misses = s->machine->memory.demand_misses_per_thread, prefetches = s->machine->memory.prefetches_per_core;
+    const unsigned id = id_of(e), misses = s->machine->memory.demand_misses_per_thread;
+    const unsigned prefetches = s->machine->memory.prefetches_per_core;
     const bool demand = is_load(e) || is_store(e), prefetch = id == LRB_OP_prefetch1 || id == LRB_OP_prefetch2;
     const uint64_t *arrivals = demand ? t->misses : s->prefetches;
     const unsigned places = demand ? misses : prefetch ? prefetches : 0;

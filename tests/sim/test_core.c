@@ -1,4 +1,5 @@
 /* The core model's threads, pipes and branches: closed formulas, one rule a test. Every case runs on the slow simulator too. */
+#include "sim/bounds.h"
 #include "tests/sim/core_timeline.h"
 
 /* Every level answers as fast as the first: nothing waits for memory. */
@@ -226,6 +227,37 @@ static void phases__two_threads__share_the_cycles(void **state)
     sim_machine_destroy(&machine);
 }
 
+/* What the bounds are of ops that can be counted by hand. */
+static void bounds__by_hand__chains_ports_lines(void **state)
+{
+    (void)state;
+    sim_machine *machine = MACHINE("knc", "threads=2");
+    sim_chain_meter *meter = NULL;
+    sim_chains chains = {0};
+    uint64_t ops[LRB_OP_COUNT] = {0};
+    assert_int_equal(sim_chain_meter_create(machine, &meter, NULL), BASE_OK);
+    assert_int_equal(sim_chain_meter_tile(meter, repeated((lrb_event)OP(madd231_ps, 0), 1), 10, &chains), 37);
+    assert_int_equal(sim_bound_dependence(machine, &chains), 37); /* one tile: one thread */
+    assert_int_equal(sim_chain_meter_tile(meter, repeated((lrb_event)OP(madd231_ps, 0), 2), 10, &chains), 17);
+    assert_int_equal(sim_chain_meter_tile(meter, repeated((lrb_event)OP(madd231_ps, 0), 0), 300, &chains), 1);
+    for (int i = 0; i < 3; i++)
+        sim_chain_meter_tile(meter, repeated((lrb_event)OP(madd231_ps, 0), 1), 10, &chains);
+    assert_int_equal(sim_bound_dependence(machine, &chains), (37 + 17 + 1 + 3 * 37) / 2);
+    sim_chain_meter_destroy(&meter);
+    ops[LRB_OP_madd231_ps] = 100;
+    assert_int_equal(sim_bound_ports(machine, ops), 100); /* U takes one a cycle */
+    ops[LRB_OP_add] = 300;
+    assert_int_equal(sim_bound_ports(machine, ops), 200); /* two ops a cycle */
+    ops[LRB_OP_imul] = 30;
+    assert_int_equal(sim_bound_ports(machine, ops), 29 * 10 + 1);
+    ops[LRB_OP_imul] = 0;
+    assert_int_equal(sim_machine_set(machine, "threads=1", NULL), BASE_OK);
+    assert_int_equal(sim_bound_ports(machine, ops), 199 * 2 + 1); /* a pair every other cycle */
+    sim_hierarchy_counts lines = {.memory_lines = 122, .l2_accesses = 122, .l2_misses = 122};
+    assert_int_equal(sim_bound_memory(machine, &lines), 1440); /* 21 may be on their way at the end */
+    sim_machine_destroy(&machine);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -241,6 +273,7 @@ int main(void)
         cmocka_unit_test(branch__full_set__oldest_goes),
         cmocka_unit_test(delay__of_n__thread_stands_aside),
         cmocka_unit_test(phases__two_threads__share_the_cycles),
+        cmocka_unit_test(bounds__by_hand__chains_ports_lines),
     };
     return cmocka_run_group_tests_name("sim/core", tests, NULL, NULL);
 }

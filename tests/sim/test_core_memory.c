@@ -307,6 +307,45 @@ static void cores__share_of_the_chip__lines_further_apart(void **state)
     sim_machine_destroy(&machine);
 }
 
+/* One tile for the first thread. */
+typedef struct single_tile {
+    const lrb_event *events; /* NULL: taken */
+    size_t count;
+} single_tile;
+
+static base_status take_tile(void *user, unsigned thread, const lrb_event **events, size_t *count, base_error *err)
+{
+    single_tile *tile = user;
+    (void)thread, (void)err;
+    *events = tile->events;
+    *count = tile->count;
+    tile->events = NULL;
+    return BASE_OK;
+}
+
+/* A core keeps its caches from run to run, and its statistics are the sums. */
+static void runs__one_after_another__caches_stay_warm(void **state)
+{
+    (void)state;
+    lrb_event events[40];
+    sim_machine *machine = MACHINE("larrabee", "threads=2");
+    sim_core *core = NULL;
+    fill_chase(events, 40, 10);
+    assert_int_equal(sim_core_create(machine, &core, NULL), BASE_OK);
+    for (unsigned run = 1; run <= 3; run++) {
+        single_tile tile = {events, 10};
+        const sim_core_feed feed = {.next = take_tile, .user = &tile};
+        assert_int_equal(sim_core_run(core, &feed, NULL), BASE_OK);
+        sim_core_stats s = sim_core_get(core);
+        assert_int_equal(s.cycles, 1 + 2700 + (run - 1) * (1 + 27));
+        assert_int_equal(s.memory.l1_misses, 10);
+        assert_int_equal(s.threads.no_work, s.cycles);
+        assert_int_equal(s.core.issued_one, 10 * run);
+    }
+    sim_core_destroy(&core);
+    sim_machine_destroy(&machine);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -326,6 +365,7 @@ int main(void)
         cmocka_unit_test(banks__two_accesses__pair_if_they_can),
         cmocka_unit_test(streaming__with_and_without_prefetch__latency_or_bandwidth),
         cmocka_unit_test(cores__share_of_the_chip__lines_further_apart),
+        cmocka_unit_test(runs__one_after_another__caches_stay_warm),
     };
     return cmocka_run_group_tests_name("sim/core_memory", tests, NULL, NULL);
 }
