@@ -12,7 +12,7 @@
 /* Runs one subcommand: argv[0] is "lanetrace NAME". Returns the exit code. */
 typedef int command_fn(int argc, char **argv);
 
-command_fn command_run_kernel, command_report, command_regress, command_replay, command_kernels, command_scenes,
+command_fn command_run_kernel, command_report, command_regress, command_replay, command_sensitivity, command_kernels, command_scenes,
     command_machines, command_ops;
 
 /** Print `lanetrace: error: WHAT: WHY` on stderr and return the exit code of the status. */

@@ -13,6 +13,7 @@ static const struct subcommand {
     {"report", "[SUITE...] [--out DIR]", "the papers' tables, measured, beside the papers' values", command_report},
     {"regress", "[SUITE...] [--update]", "counts, ops and cycles against the stored baselines", command_regress},
     {"replay", "TRACE [--machine M]...", "time a recorded trace on other machines, or export it", command_replay},
+    {"sensitivity", "KERNEL|TRACE [--scene SCENE]", "what each number of a machine is worth in cycles", command_sensitivity},
     {"kernels", "[--json]", "the kernels there are", command_kernels},
     {"scenes", "[--json]", "the built-in scenes there are", command_scenes},
     {"machines", "[NAME] [--json]", "the machine descriptions there are, and their numbers", command_machines},
@@ -25,7 +26,7 @@ static void print_help(void)
     printf("Usage: lanetrace SUBCOMMAND [ARGUMENTS]\n"
            "Ray-tracing kernels on a simulated Larrabee-style machine: counts, simulated cycles, pictures.\n\n");
     for (int i = 0; i < SUBCOMMANDS; i++)
-        printf("  %-10s %-24s %s\n", subcommands[i].name, subcommands[i].usage, subcommands[i].summary);
+        printf("  %-11s %-28s %s\n", subcommands[i].name, subcommands[i].usage, subcommands[i].summary);
     printf("\n'lanetrace SUBCOMMAND --help' tells more; 'lanetrace --version' tells version, compiler and back end.\n"
            "Exit codes: 0 success, 1 a comparison found differences, 2 wrong usage or input, 3 the host failed.\n");
 }

@@ -41,6 +41,8 @@ base_status recorder_create(const recorder_input *input, const sim_machine *mach
 {
     *out = (recorder){.input = input, .worker = worker};
     base_status status = sim_chain_meter_create(machine, &out->meter, err);
+    if (status == BASE_OK && input->registers)
+        status = sim_registers_create(sim_file_registers, &out->registers, err);
     if (status != BASE_OK)
         return status;
     return input->replayed ? trace_source_create(input->replayed, &out->source, err) : lrb_ctx_create(append, out, &out->ctx, err);
@@ -51,6 +53,7 @@ void recorder_destroy(recorder *r)
     lrb_ctx_destroy(&r->ctx);
     trace_source_destroy(&r->source);
     sim_chain_meter_destroy(&r->meter);
+    sim_registers_destroy(&r->registers);
 }
 
 static base_status out_of_memory(base_error *err)
@@ -91,7 +94,7 @@ static base_status record_tile(recorder *r, uint32_t tile, recording *into, base
     const recorder_input *input = r->input;
     kernel_counts counts = {{0}};
     lrb_ctx_begin(r->ctx);
-    input->kernel->tile[LRB_RECORD](r->ctx, input->job, tile, &counts);
+    (input->annotated ? input->kernel->annotated : input->kernel->tile[LRB_RECORD])(r->ctx, input->job, tile, &counts);
     lrb_ctx_end(r->ctx);
     for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
         r->counts.n[i] += counts.n[i];
@@ -101,7 +104,10 @@ static base_status record_tile(recorder *r, uint32_t tile, recording *into, base
         return out_of_memory(err);
     if (input->trace && input->trace->writer)
         record_trace(r, tile, into);
-    return BASE_OK;
+    if (!r->registers)
+        return BASE_OK;
+    sim_registers_events(r->registers, into->events, (uint32_t)into->count);
+    return sim_registers_end(r->registers, err);
 }
 
 base_status recorder_tile(recorder *r, size_t tile, recording *into, base_error *err)

@@ -9,6 +9,7 @@
 #include "cli/tile_exchange.h"
 #include "kernels/kernel.h"
 #include "sim/bounds.h"
+#include "sim/registers.h"
 #include "sim/observer.h"
 #include "traces/reader.h"
 
@@ -41,6 +42,7 @@ typedef struct recorder_input {
     tile_exchange *exchange;      /* of a replay on several machines: the others that read the trace, or NULL */
     unsigned member;              /* number among them */
     const core_watch *watch;      /* or NULL; of a single core */
+    bool annotated, registers;    /* of a run: take the annotated kernel; analyse what registers its tiles need */
 } recorder_input;
 
 /* What one host thread records with. */
@@ -52,6 +54,7 @@ typedef struct recorder {
     kernel_counts counts; /* of all tiles so far */
     sim_chain_meter *meter;
     sim_chains chains;    /* of all tiles so far */
+    sim_registers *registers; /* or NULL */
     recording *into;
 } recorder;
 

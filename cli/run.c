@@ -28,6 +28,9 @@ typedef struct run_worker {
     lrb_ctx *ctx;
     sim_issue *issue;
     trace_encoder *encoder; /* of the run's trace, or NULL */
+    sim_profile *profile;     /* or NULL */
+    sim_registers *registers; /* or NULL */
+    base_error err;           /* of the first tile that failed */
     sim_op_counts counted;  /* RUN_COUNT while a trace is recorded: what the kernel does not count then */
     kernel_counts counts;
 } run_worker;
@@ -44,6 +47,13 @@ static void record_issue(void *worker, const lrb_event *events, uint32_t count)
 {
     run_worker *w = worker;
     trace_encoder_events(w->encoder, events, count);
+    sim_issue_events(w->issue, events, count);
+}
+
+static void analyse_issue(void *worker, const lrb_event *events, uint32_t count)
+{
+    run_worker *w = worker;
+    sim_registers_events(w->registers, events, count);
     sim_issue_events(w->issue, events, count);
 }
 
@@ -80,11 +90,15 @@ static void run_tile(run_state *r, uint32_t tile, unsigned worker, kernel_counts
     static const int levels[RUN_MODELS] = {[RUN_NATIVE] = LRB_NATIVE, [RUN_COUNT] = LRB_COUNT, [RUN_ISSUE] = LRB_RECORD};
     const run_options *o = &r->result->options;
     const bool traced = r->trace->writer != NULL;
-    lrb_ctx *ctx = r->workers[worker].ctx;
+    run_worker *w = &r->workers[worker];
+    lrb_ctx *ctx = w->ctx;
     if (traced)
         run_trace_begin_tile(r->trace, worker);
-    o->kernel->tile[traced ? LRB_RECORD : levels[o->model]](ctx, r->result->job, tile, counts);
+    kernel_tile_fn *plain = o->kernel->tile[traced ? LRB_RECORD : levels[o->model]];
+    (o->profile || o->registers ? o->kernel->annotated : plain)(ctx, r->result->job, tile, counts);
     lrb_ctx_end(ctx);
+    if (w->registers && w->err.status == BASE_OK)
+        sim_registers_end(w->registers, &w->err);
     if (traced)
         run_trace_end_tile(r->trace, worker, tile);
 }
@@ -139,6 +153,15 @@ static void collect_worker(run_result *result, const run_worker *w)
     }
 }
 
+static base_status collect_analyses(run_result *result, const run_worker *w, base_error *err)
+{
+    if (w->err.status != BASE_OK)
+        return base_fail(err, w->err.status, w->err.what, "%s", w->err.why);
+    if (w->registers)
+        sim_registers_stats_add(&result->registers, sim_registers_get(w->registers));
+    return w->profile ? sim_profile_add(result->profile, w->profile, err) : BASE_OK;
+}
+
 void run_finish_cycles(run_result *result)
 {
     if (result->options.model == RUN_COUNT) {
@@ -146,7 +169,8 @@ void run_finish_cycles(run_result *result)
     } else if (result->options.model == RUN_ISSUE) {
         memcpy(result->ops, result->issue.ops, sizeof result->ops);
         result->memory_operands = result->issue.memory_operands;
-        result->idle_lanes = result->issue.idle_lanes;
+        for (int phase = 0; phase < SIM_MAX_PHASES; phase++)
+            result->idle_lanes += result->issue.phase_idle_lanes[phase];
         result->cycles = result->issue.cycles;
     }
 }
@@ -154,6 +178,8 @@ void run_finish_cycles(run_result *result)
 /* A context whose events go where the model and the trace want them. */
 static base_status create_ctx(const run_state *r, run_worker *w, base_error *err)
 {
+    if (w->registers)
+        return lrb_ctx_create(analyse_issue, w, &w->ctx, err);
     if (!w->encoder)
         return lrb_ctx_create(sim_issue_events, w->issue, &w->ctx, err);
     switch (r->result->options.model) {
@@ -166,6 +192,16 @@ static base_status create_ctx(const run_state *r, run_worker *w, base_error *err
     }
 }
 
+static base_status create_analyses(const run_options *o, run_worker *w, base_error *err)
+{
+    base_status status = o->profile ? sim_profile_create(&w->profile, err) : BASE_OK;
+    if (status == BASE_OK && o->profile)
+        sim_issue_set_profile(w->issue, w->profile);
+    if (status == BASE_OK && o->registers)
+        status = sim_registers_create(sim_file_registers, &w->registers, err);
+    return status;
+}
+
 static base_status create_workers(run_state *r, unsigned jobs, base_error *err)
 {
     r->workers = calloc(jobs, sizeof *r->workers);
@@ -175,6 +211,8 @@ static base_status create_workers(run_state *r, unsigned jobs, base_error *err)
         base_status status = sim_issue_create(r->result->machine, &r->workers[i].issue, err);
         if (r->trace->writer)
             r->workers[i].encoder = r->trace->workers[i].encoder;
+        if (status == BASE_OK)
+            status = create_analyses(&r->result->options, &r->workers[i], err);
         if (status == BASE_OK)
             status = create_ctx(r, &r->workers[i], err);
         if (status != BASE_OK)
@@ -188,6 +226,8 @@ static void destroy_workers(run_state *r, unsigned jobs)
     for (unsigned i = 0; r->workers && i < jobs; i++) {
         lrb_ctx_destroy(&r->workers[i].ctx);
         sim_issue_destroy(&r->workers[i].issue);
+        sim_profile_destroy(&r->workers[i].profile);
+        sim_registers_destroy(&r->workers[i].registers);
     }
     free(r->workers);
 }
@@ -202,6 +242,8 @@ static base_status trace_tiles(run_result *result, run_trace *recorded, progress
         base_parallel_for(jobs, kernel_job_tiles(result->job), run_one_tile, &r);
         for (unsigned i = 0; i < jobs; i++)
             collect_worker(result, &r.workers[i]);
+        for (unsigned i = 0; status == BASE_OK && i < jobs; i++)
+            status = collect_analyses(result, &r.workers[i], err);
         run_finish_cycles(result);
     }
     destroy_workers(&r, jobs);
@@ -219,12 +261,14 @@ static base_status trace(run_result *result, base_error *err)
     if ((o->model != RUN_NATIVE && !result->region_cycles) || (o->keep_tile_counts && !result->tile_counts))
         return base_fail(err, BASE_ERR_NOMEM, "--size", "out of memory for %ux%u pixels", o->width, o->height);
     run_trace recorded = {0};
-    base_status status = run_trace_begin(result, &recorded, err);
+    base_status status = o->profile ? sim_profile_create(&result->profile, err) : BASE_OK;
+    if (status == BASE_OK)
+        status = run_trace_begin(result, &recorded, err);
     if (status == BASE_OK) {
         progress bar = progress_begin(o->kernel->name, tiles, o->progress);
         double start = clock_seconds();
         recorder_input input = {.tiles = tiles, .kernel = o->kernel, .job = result->job, .tile_counts = result->tile_counts,
-                                .trace = &recorded};
+                                .trace = &recorded, .annotated = o->profile || o->registers, .registers = o->registers};
         status = o->model == RUN_CORE ? run_core(result, &input, &bar, err) : trace_tiles(result, &recorded, &bar, err);
         result->kernel_seconds = clock_seconds() - start;
         progress_end(&bar);
@@ -259,6 +303,7 @@ void run_result_destroy(run_result *result)
 {
     kernel_job_destroy(&result->job);
     bvh_destroy(&result->tree);
+    sim_profile_destroy(&result->profile);
     free(result->region_cycles);
     free(result->tile_counts);
     *result = (run_result){0};

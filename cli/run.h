@@ -12,6 +12,7 @@
 #include "sim/core.h"
 #include "sim/issue.h"
 #include "sim/machine.h"
+#include "sim/registers.h"
 
 /* How much of the machine is modelled; each a stated simplification of the next (docs/machine-model.md). */
 typedef enum run_model { RUN_NATIVE, RUN_COUNT, RUN_ISSUE, RUN_CORE, RUN_MODELS } run_model;
@@ -32,6 +33,7 @@ typedef struct run_options {
     bool keep_tile_counts; /* fill tile_counts of the result */
     bool progress;         /* a bar on stderr */
     const char *trace;     /* file to record the events to, or NULL */
+    bool profile, registers; /* fill these of the result: the annotated kernel, which must be there, is run. RUN_ISSUE and RUN_CORE, without a trace */
 } run_options;
 
 /* Everything that a run has found, or a replay of its trace. Owns all but the scene and the machine. */
@@ -54,6 +56,8 @@ typedef struct run_result {
     uint64_t cycles;       /* all models but RUN_NATIVE; RUN_CORE: of the slowest core */
     double *region_cycles; /* all models but RUN_NATIVE: by tile, SIM_MAX_REGIONS + 1 each: blocks, then the whole tile */
     kernel_counts *tile_counts; /* by tile, or NULL */
+    sim_profile *profile;  /* options.profile */
+    sim_registers_stats registers; /* options.registers */
     double build_seconds, kernel_seconds;
 } run_result;
 

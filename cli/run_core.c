@@ -63,7 +63,7 @@ static void tile_done(void *user, unsigned thread, const uint64_t regions[SIM_MA
 }
 
 /* Simulate one core from its first tile to its last. */
-static base_status simulate(core_run *r, sim_core_stats *stats, base_error *err)
+static base_status simulate(core_run *r, sim_core_stats *stats, sim_profile **profile, base_error *err)
 {
     const unsigned threads = r->result->machine->threads;
     const sim_core_feed feed = {.next = next_tile, .done = tile_done, .user = r};
@@ -76,6 +76,10 @@ static base_status simulate(core_run *r, sim_core_stats *stats, base_error *err)
         status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     if (status == BASE_OK)
         status = sim_core_create(r->result->machine, &core, err);
+    if (status == BASE_OK && profile)
+        status = sim_profile_create(profile, err);
+    if (status == BASE_OK && profile)
+        sim_core_set_profile(core, *profile);
     if (status == BASE_OK && r->watch)
         sim_core_observe(core, r->watch->observer, r->watch->user);
     if (status == BASE_OK)
@@ -98,6 +102,7 @@ typedef struct chip {
     progress *bar;
     recorder *recorders; /* by host thread */
     sim_core_stats *stats; /* by core */
+    sim_profile **profiles; /* by core; NULL if there are to be none */
     base_error *errors;  /* by core */
 } chip;
 
@@ -106,7 +111,7 @@ static void simulate_core(void *user, size_t core, unsigned worker)
     chip *c = user;
     core_run r = {.result = c->result, .tiles = c->input->tiles, .bar = c->bar, .worker = worker, .next = core,
                   .step = c->result->machine->cores, .recorder = &c->recorders[worker]};
-    simulate(&r, &c->stats[core], &c->errors[core]);
+    simulate(&r, &c->stats[core], c->profiles ? &c->profiles[core] : NULL, &c->errors[core]);
 }
 
 /* One core here, its tiles recorded ahead by the other host threads. */
@@ -118,7 +123,7 @@ static base_status simulate_single(chip *c, unsigned jobs, base_error *err)
     if (jobs > 1)
         status = record_ahead_start(c->recorders + 1, jobs - 1, c->input->tiles, c->result->machine->threads, &r.ahead, err);
     if (status == BASE_OK)
-        status = simulate(&r, c->stats, err);
+        status = simulate(&r, c->stats, c->profiles, err);
     record_ahead_stop(&r.ahead);
     return status;
 }
@@ -136,8 +141,9 @@ static base_status simulate_all(chip *c, unsigned jobs, base_error *err)
 }
 
 /* The run takes as long as its slowest core; the others have no work at its end. */
-static void collect(const chip *c, unsigned jobs)
+static base_status collect(const chip *c, unsigned jobs, base_error *err)
 {
+    base_status status = BASE_OK;
     run_result *result = c->result;
     for (unsigned i = 0; i < result->machine->cores; i++)
         result->cycles = c->stats[i].cycles > result->cycles ? c->stats[i].cycles : result->cycles;
@@ -147,6 +153,8 @@ static void collect(const chip *c, unsigned jobs)
     }
     for (unsigned i = 0; i < jobs; i++) {
         sim_chains_add(&result->chains, &c->recorders[i].chains);
+        if (c->recorders[i].registers)
+            sim_registers_stats_add(&result->registers, sim_registers_get(c->recorders[i].registers));
         for (int n = 0; n < KERNEL_COUNTER_COUNT; n++)
             result->counts.n[n] += c->recorders[i].counts.n[n];
     }
@@ -154,6 +162,9 @@ static void collect(const chip *c, unsigned jobs)
     result->memory_operands = result->core.memory_operands;
     for (int phase = 0; phase < SIM_MAX_PHASES; phase++)
         result->idle_lanes += result->core.phase_idle_lanes[phase];
+    for (unsigned i = 0; c->profiles && status == BASE_OK && i < result->machine->cores; i++)
+        status = sim_profile_add(result->profile, c->profiles[i], err);
+    return status;
 }
 
 base_status run_core(run_result *result, const recorder_input *input, progress *bar, base_error *err)
@@ -165,19 +176,23 @@ base_status run_core(run_result *result, const recorder_input *input, progress *
     c.recorders = calloc(jobs, sizeof *c.recorders);
     c.stats = calloc(cores, sizeof *c.stats);
     c.errors = calloc(cores, sizeof *c.errors);
+    c.profiles = result->profile ? calloc(cores, sizeof *c.profiles) : NULL;
     base_status status = BASE_OK;
-    if (!c.recorders || !c.stats || !c.errors)
+    if (!c.recorders || !c.stats || !c.errors || (result->profile && !c.profiles))
         status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     for (unsigned i = 0; status == BASE_OK && i < jobs; i++)
         status = recorder_create(input, result->machine, i, &c.recorders[i], err);
     if (status == BASE_OK)
         status = simulate_all(&c, jobs, err);
     if (status == BASE_OK)
-        collect(&c, jobs);
+        status = collect(&c, jobs, err);
     for (unsigned i = 0; c.recorders && i < jobs; i++)
         recorder_destroy(&c.recorders[i]);
     free(c.recorders);
     free(c.stats);
     free(c.errors);
+    for (unsigned i = 0; c.profiles && i < cores; i++)
+        sim_profile_destroy(&c.profiles[i]);
+    free(c.profiles);
     return status;
 }

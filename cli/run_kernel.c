@@ -2,9 +2,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/annotate.h"
+#include "cli/callgrind.h"
 #include "cli/clock.h"
 #include "cli/command.h"
+#include "cli/listing.h"
 #include "cli/picture.h"
+#include "cli/registers_report.h"
 #include "cli/run.h"
 #include "cli/stats.h"
 #include "lrbni/base/parallel.h"
@@ -13,7 +17,8 @@
 
 enum {
     KEY_SCENE = 256, KEY_CAMERA, KEY_SIZE, KEY_SAMPLES, KEY_LIGHT_SCALE, KEY_MODEL, KEY_MACHINE, KEY_SET, KEY_PARAM,
-    KEY_ERROR, KEY_JOBS, KEY_STATS, KEY_IMAGE, KEY_AOV, KEY_HEATMAP, KEY_HEATMAP_OF, KEY_TRACE
+    KEY_ERROR, KEY_JOBS, KEY_STATS, KEY_IMAGE, KEY_AOV, KEY_HEATMAP, KEY_HEATMAP_OF, KEY_TRACE, KEY_STAT, KEY_ANNOTATE,
+    KEY_CALLGRIND, KEY_REGISTERS
 };
 
 static const struct argp_option option_table[] = {
@@ -29,6 +34,10 @@ static const struct argp_option option_table[] = {
     {"error", KEY_ERROR, "E", 0, "sampled simulation: 0, all tiles, is all there is in this version", 2},
     {"jobs", KEY_JOBS, "N", 0, "host threads; results do not depend on it; default: all", 2},
     {"stats", KEY_STATS, "FILE", 0, "JSON statistics, - for stdout; default: a table on stdout", 3},
+    {"stat", KEY_STAT, "FILE", OPTION_ARG_OPTIONAL, "a listing in the manner of perf stat; default: on stdout", 3},
+    {"annotate", KEY_ANNOTATE, "FILE", OPTION_ARG_OPTIONAL, "the kernel's source with cycles in the margin; default: on stdout", 3},
+    {"callgrind", KEY_CALLGRIND, "FILE", 0, "cycles by line for KCachegrind and callgrind_annotate", 3},
+    {"registers", KEY_REGISTERS, NULL, 0, "the registers that the kernel needs, and what spills would cost, among the statistics", 3},
     {"image", KEY_IMAGE, "FILE", 0, "the rendered picture, in any format that OpenImageIO writes", 3},
     {"aov", KEY_AOV, "FILE.exr", 0, "per-pixel results: Z, prim, U, V", 3},
     {"heatmap", KEY_HEATMAP, "FILE", 0, "simulated cycles per pixel, as a picture", 3},
@@ -40,7 +49,8 @@ static const struct argp_option option_table[] = {
 typedef struct arguments {
     base_error *err;
     const char *kernel, *scene, *camera, *size, *model, *machine, *jobs, *stats, *image, *aov, *heatmap, *heatmap_of, *trace;
-    const char *light_scale, *samples, *error;
+    const char *light_scale, *samples, *error, *stat, *annotate, *callgrind;
+    bool registers;
     command_list sets, params;
 } arguments;
 
@@ -58,6 +68,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_ERROR: a->error = text; return 0;
     case KEY_JOBS: a->jobs = text; return 0;
     case KEY_STATS: a->stats = text; return 0;
+    case KEY_STAT: a->stat = text ? text : "-"; return 0;
+    case KEY_ANNOTATE: a->annotate = text ? text : "-"; return 0;
+    case KEY_CALLGRIND: a->callgrind = text; return 0;
+    case KEY_REGISTERS: a->registers = true; return 0;
     case KEY_IMAGE: a->image = text; return 0;
     case KEY_AOV: a->aov = text; return 0;
     case KEY_HEATMAP: a->heatmap = text; return 0;
@@ -140,13 +154,35 @@ static base_status plan_heat_map(const arguments *a, plan *p, base_error *err)
     return a->heatmap_of ? find_counter(p->run.kernel, a->heatmap_of, &p->heat_counter, err) : BASE_OK;
 }
 
+/* What looks at a kernel more closely runs its annotated form, in a model that has something to say about it. */
+static base_status plan_analyses(const arguments *a, plan *p, base_error *err)
+{
+    const char *option = a->annotate ? "--annotate" : a->callgrind ? "--callgrind" : a->registers ? "--registers" : NULL;
+    const bool timed = p->run.model == RUN_ISSUE || p->run.model == RUN_CORE;
+    if ((option || a->stat) && !timed)
+        return base_fail(err, BASE_ERR_USAGE, option ? option : "--stat", "model %s says no more than its total (take issue or core)",
+                         run_model_names[p->run.model]);
+    if (option && a->trace)
+        return base_fail(err, BASE_ERR_USAGE, option, "not together with --trace, which records the plain kernel");
+    if (option && !p->run.kernel->annotated)
+        return base_fail(err, BASE_ERR_UNSUPPORTED, option, "kernel %s was not built with annotations", p->run.kernel->name);
+    p->run.profile = a->annotate || a->callgrind;
+    p->run.registers = a->registers;
+    return BASE_OK;
+}
+
+static bool is_stdout(const char *path) { return path && strcmp(path, "-") == 0; }
+
 /* A file that cannot be written is found before the work, not after it. */
 static base_status check_outputs(const arguments *a, base_error *err)
 {
-    const char *paths[] = {a->stats, a->image, a->aov, a->heatmap, a->trace};
+    enum { TEXTS = 4 }; /* that may go to stdout, one of them */
+    const char *paths[] = {a->stats, a->stat, a->annotate, a->callgrind, a->image, a->aov, a->heatmap, a->trace};
+    if (is_stdout(a->stats) + is_stdout(a->stat) + is_stdout(a->annotate) + is_stdout(a->callgrind) > 1)
+        return base_fail(err, BASE_ERR_USAGE, "-", "only one of --stats, --stat, --annotate and --callgrind can go to stdout");
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         base_output out;
-        if (!paths[i] || (i == 0 && strcmp(paths[i], "-") == 0))
+        if (!paths[i] || (i < TEXTS && is_stdout(paths[i])))
             continue;
         base_status status = base_output_begin(paths[i], false, &out, err);
         if (status != BASE_OK)
@@ -177,6 +213,8 @@ static base_status make_plan(const arguments *a, plan *p, base_error *err)
     if (status == BASE_OK)
         status = plan_heat_map(a, p, err);
     if (status == BASE_OK)
+        status = plan_analyses(a, p, err);
+    if (status == BASE_OK)
         status = command_machine(a->machine ? a->machine : "larrabee", &a->sets, &p->machine, err);
     if (status == BASE_OK)
         status = check_outputs(a, err);
@@ -186,9 +224,34 @@ static base_status make_plan(const arguments *a, plan *p, base_error *err)
     return status;
 }
 
+static base_status end_output(base_output *out, base_status written, base_error *err)
+{
+    if (written == BASE_OK)
+        return base_output_commit(out, err);
+    base_output_abort(out);
+    return written;
+}
+
+static base_status write_tables(const plan *p, const run_result *result, FILE *out, base_error *err)
+{
+    report_table *table = stats_table(result, p->load_seconds);
+    base_status status = report_table_write_text(table, out, err);
+    report_table_destroy(&table);
+    if (status == BASE_OK && result->options.registers) {
+        table = registers_table(result);
+        fputc('\n', out);
+        status = report_table_write_text(table, out, err);
+        report_table_destroy(&table);
+    }
+    return status;
+}
+
+/* JSON where it is wanted; otherwise tables on stdout, unless that is another text's. */
 static base_status write_stats(const arguments *a, const plan *p, const run_result *result, base_error *err)
 {
     base_output out;
+    if (!a->stats && (is_stdout(a->stat) || is_stdout(a->annotate) || is_stdout(a->callgrind)))
+        return BASE_OK;
     base_status status = base_output_begin(a->stats ? a->stats : "-", true, &out, err);
     if (status != BASE_OK)
         return status;
@@ -197,15 +260,20 @@ static base_status write_stats(const arguments *a, const plan *p, const run_resu
         status = report_json_write(stats, out.stream, err);
         json_decref(stats);
     } else {
-        report_table *table = stats_table(result, p->load_seconds);
-        status = report_table_write_text(table, out.stream, err);
-        report_table_destroy(&table);
+        status = write_tables(p, result, out.stream, err);
     }
-    if (status != BASE_OK) {
-        base_output_abort(&out);
-        return status;
-    }
-    return base_output_commit(&out, err);
+    return end_output(&out, status, err);
+}
+
+/* Write a text to a file or to stdout; path NULL: nowhere. */
+static base_status write_text(const char *path, base_status (*write)(const run_result *, FILE *, base_error *),
+                              const run_result *result, base_error *err)
+{
+    base_output out;
+    if (!path)
+        return BASE_OK;
+    base_status status = base_output_begin(path, true, &out, err);
+    return status == BASE_OK ? end_output(&out, write(result, out.stream, err), err) : status;
 }
 
 static base_status write_picture(const char *path, report_image *image, base_status made, base_error *err)
@@ -225,6 +293,12 @@ static base_status write_results(const arguments *a, const plan *p, const run_re
         status = write_picture(a->heatmap, &image, picture_heat_map(result, p->heat_counter, 0, &image, err), err);
     if (status == BASE_OK && a->aov)
         status = picture_write_aov(result, a->aov, err);
+    if (status == BASE_OK)
+        status = write_text(a->stat, listing_write, result, err);
+    if (status == BASE_OK)
+        status = write_text(a->annotate, annotate_write, result, err);
+    if (status == BASE_OK)
+        status = write_text(a->callgrind, callgrind_write, result, err);
     return status == BASE_OK ? write_stats(a, p, result, err) : status;
 }
 

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include "cli/identity.h"
+#include "cli/registers_report.h"
 #include "cli/version.h"
 #include "reports/accounts.h"
 
@@ -35,8 +36,7 @@ static json_t *phases_json(const run_result *r)
     return object;
 }
 
-/* Where the cycles of the run went. */
-static sim_cycles cycles_of(const run_result *r)
+sim_cycles stats_cycles(const run_result *r)
 {
     const sim_issue_stats *s = &r->issue;
     if (r->options.model == RUN_CORE)
@@ -65,7 +65,7 @@ static uint64_t operand_wait(const sim_cycles *s, int class_id)
     return sum;
 }
 
-static json_t *stalls_json(const sim_cycles *s)
+json_t *stats_stalls_json(const sim_cycles *s)
 {
     json_t *object = json_object();
     json_object_set_new(object, "issued_one", integer(s->issued_one));
@@ -89,22 +89,22 @@ static json_t *stalls_json(const sim_cycles *s)
     return object;
 }
 
-/* Cycles that rest on each basis, by the field that made the core wait; the latency of a level of memory has one field. */
-static void add_plain_bases(const sim_cycles *s, const sim_machine_value *v, uint64_t cycles[SIM_BASIS_COUNT])
+/* The latency of a level of memory has one field. */
+static void charge_plain_fields(const sim_cycles *s, uint64_t cycles[SIM_FIELDS])
 {
-    cycles[v[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)].basis] += s->store_forward;
-    cycles[v[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)].basis] += s->blocked;
-    cycles[v[sim_class_field(LRB_CLASS_delay, SIM_KEY_throughput)].basis] += s->delay;
-    cycles[v[SIM_FIELD_machine_issue_gap].basis] += s->gap;
-    cycles[v[SIM_FIELD_l2_latency].basis] += s->l2;
-    cycles[v[SIM_FIELD_memory_latency].basis] += s->memory;
-    cycles[v[SIM_FIELD_branch_mispredict_penalty].basis] += s->mispredict;
-    cycles[v[SIM_FIELD_branch_btb_miss_penalty].basis] += s->btb_miss;
-    cycles[v[SIM_FIELD_memory_demand_misses_per_thread].basis] += s->misses;
-    cycles[v[SIM_FIELD_memory_prefetches_per_core].basis] += s->prefetches;
+    cycles[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)] += s->store_forward;
+    cycles[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)] += s->blocked;
+    cycles[sim_class_field(LRB_CLASS_delay, SIM_KEY_throughput)] += s->delay;
+    cycles[SIM_FIELD_machine_issue_gap] += s->gap;
+    cycles[SIM_FIELD_l2_latency] += s->l2;
+    cycles[SIM_FIELD_memory_latency] += s->memory;
+    cycles[SIM_FIELD_branch_mispredict_penalty] += s->mispredict;
+    cycles[SIM_FIELD_branch_btb_miss_penalty] += s->btb_miss;
+    cycles[SIM_FIELD_memory_demand_misses_per_thread] += s->misses;
+    cycles[SIM_FIELD_memory_prefetches_per_core] += s->prefetches;
 }
 
-void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
+void stats_cycles_by_field(const run_result *r, uint64_t cycles[SIM_FIELDS])
 {
     static const sim_class_key latency_key[SIM_CONSUMERS] = {
         [SIM_CONSUMER_PLAIN] = SIM_KEY_latency,
@@ -112,21 +112,28 @@ void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
         [SIM_CONSUMER_BRANCH] = SIM_KEY_latency_to_branch,
         [SIM_CONSUMER_ADDRESS] = SIM_KEY_latency_to_address,
     };
-    const sim_cycles s = cycles_of(r);
+    const sim_cycles s = stats_cycles(r);
     const uint64_t *issued = r->options.model == RUN_CORE ? r->core.issued_by_class : r->issue.issued_by_class;
-    const sim_machine_value *v = r->machine->values;
-    uint64_t cycles[SIM_BASIS_COUNT] = {0}, sum = 0;
+    memset(cycles, 0, SIM_FIELDS * sizeof *cycles);
     for (int i = 0; i < LRB_CLASS_COUNT; i++) {
         lrb_cost_class k = (lrb_cost_class)i;
-        cycles[v[sim_class_field(k, SIM_KEY_throughput)].basis] += issued[k] + s.busy[k];
+        cycles[sim_class_field(k, SIM_KEY_throughput)] += issued[k] + s.busy[k];
         for (int kind = 0; kind < SIM_CONSUMERS; kind++) {
             size_t field = sim_class_field(k, latency_key[kind]);
-            cycles[v[v[field].given ? field : sim_class_field(k, SIM_KEY_latency)].basis] += s.operand[k][kind];
+            cycles[r->machine->values[field].given ? field : sim_class_field(k, SIM_KEY_latency)] += s.operand[k][kind];
         }
     }
-    add_plain_bases(&s, v, cycles);
-    for (int i = 0; i < SIM_BASIS_COUNT; i++)
-        sum += cycles[i];
+    charge_plain_fields(&s, cycles);
+}
+
+void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
+{
+    uint64_t by_field[SIM_FIELDS], cycles[SIM_BASIS_COUNT] = {0}, sum = 0;
+    stats_cycles_by_field(r, by_field);
+    for (size_t field = 0; field < SIM_FIELDS; field++) {
+        cycles[r->machine->values[field].basis] += by_field[field];
+        sum += by_field[field];
+    }
     for (int i = 0; i < SIM_BASIS_COUNT; i++)
         share[i] = sum ? (double)cycles[i] / (double)sum : 0;
 }
@@ -144,25 +151,27 @@ static json_t *basis_json(const run_result *r)
 /* Core cycles that began with an op of each mnemonic, or in which it was waited for. */
 static json_t *op_cycles_json(const run_result *r)
 {
+    const uint64_t *cycles = r->options.model == RUN_CORE ? r->core.op_cycles : r->issue.op_cycles;
     json_t *object = json_object();
     for (int i = 0; i < LRB_OP_COUNT; i++) {
         const char *mnemonic = lrb_op_table[i].mnemonic;
         json_int_t before = json_integer_value(json_object_get(object, mnemonic)); /* two rows may share a mnemonic */
-        if (r->core.op_cycles[i])
-            json_object_set_new(object, mnemonic, json_integer(before + (json_int_t)r->core.op_cycles[i]));
+        if (cycles[i])
+            json_object_set_new(object, mnemonic, json_integer(before + (json_int_t)cycles[i]));
     }
     return object;
 }
 
 static json_t *lanes_json(const run_result *r)
 {
+    const bool core = r->options.model == RUN_CORE;
+    const uint64_t *ops = core ? r->core.phase_vector_ops : r->issue.phase_vector_ops;
+    const uint64_t *idle = core ? r->core.phase_idle_lanes : r->issue.phase_idle_lanes;
     json_t *object = json_object();
-    for (int i = 0; i < KERNEL_PHASE_COUNT; i++) {
-        uint64_t ops = r->core.phase_vector_ops[i];
-        if (ops)
+    for (int i = 0; i < KERNEL_PHASE_COUNT; i++)
+        if (ops[i])
             json_object_set_new(object, kernel_phase_names[i],
-                                report_json_real(1 - (double)r->core.phase_idle_lanes[i] / (16.0 * (double)ops), RATIO_DECIMALS));
-    }
+                                report_json_real(1 - (double)idle[i] / (16.0 * (double)ops[i]), RATIO_DECIMALS));
     return object;
 }
 
@@ -209,18 +218,18 @@ static json_t *cycles_json(const run_result *r)
     json_object_set_new(object, "total", integer(r->cycles));
     json_object_set_new(object, "per_ray", report_json_real((double)r->cycles / (double)r->counts.n[KERNEL_rays], RATIO_DECIMALS));
     if (has_stalls(r)) {
-        const sim_cycles cycles = cycles_of(r);
+        const sim_cycles cycles = stats_cycles(r);
         json_object_set_new(object, "by_phase", phases_json(r));
-        json_object_set_new(object, "by_stall", stalls_json(&cycles));
+        json_object_set_new(object, "by_stall", stats_stalls_json(&cycles));
         json_object_set_new(object, "by_basis", basis_json(r));
+        json_object_set_new(object, "by_op", op_cycles_json(r));
+        json_object_set_new(object, "lane_utilisation", lanes_json(r));
     }
     if (r->options.model == RUN_CORE) {
         json_object_set_new(object, "cores", integer(r->machine->cores));
         json_object_set_new(object, "threads", integer(r->machine->threads));
-        json_object_set_new(object, "threads_by_stall", stalls_json(&r->core.threads));
+        json_object_set_new(object, "threads_by_stall", stats_stalls_json(&r->core.threads));
         json_object_set_new(object, "bounds", bounds_json(r));
-        json_object_set_new(object, "by_op", op_cycles_json(r));
-        json_object_set_new(object, "lane_utilisation", lanes_json(r));
         json_object_set_new(object, "memory", memory_json(r));
         json_object_set_new(object, "branches", branches_json(r));
     }
@@ -264,6 +273,8 @@ json_t *stats_json(const run_result *r, double load_seconds, int with_host)
         json_object_set_new(stats, "ops", ops_json(r));
         json_object_set_new(stats, "cycles", cycles_json(r));
     }
+    if (r->options.registers)
+        json_object_set_new(stats, "registers", registers_json(r));
     if (with_host) {
         json_t *build = json_object();
         json_object_set_new(build, "version", json_string(VERSION_NUMBER));
@@ -316,7 +327,14 @@ static void add_notes(report_table *t, const run_result *r, double load_seconds)
 {
     char text[256];
     if (r->options.model != RUN_NATIVE) {
-        snprintf(text, sizeof text, "Lane utilisation of vector ops: %.1f %%.", 100 * run_totals(r).lane_utilisation);
+        size_t length = (size_t)snprintf(text, sizeof text, "Lane utilisation of vector ops: %.1f %%",
+                                         100 * run_totals(r).lane_utilisation);
+        json_t *lanes = has_stalls(r) ? lanes_json(r) : NULL, *share;
+        const char *phase;
+        json_object_foreach(lanes, phase, share)
+            length += (size_t)snprintf(text + length, sizeof text - length, ", %s %.1f %%", phase, 100 * json_real_value(share));
+        snprintf(text + length, sizeof text - length, ".");
+        json_decref(lanes);
         report_table_add_note(t, text);
     }
     if (has_stalls(r)) {
@@ -333,13 +351,19 @@ static void add_notes(report_table *t, const run_result *r, double load_seconds)
     report_table_add_note(t, text);
 }
 
+void stats_title(const run_result *r, char *title, size_t size)
+{
+    bool accounted = r->options.model != RUN_NATIVE;
+    snprintf(title, size, "%s on %s (%zu triangles), %ux%u, model %s%s%s", r->options.kernel->name, r->scene_name,
+             r->triangle_count, r->options.width, r->options.height, run_model_names[r->options.model],
+             accounted ? ", machine " : "", accounted ? r->machine->name : "");
+}
+
 report_table *stats_table(const run_result *r, double load_seconds)
 {
     bool accounted = r->options.model != RUN_NATIVE;
-    char title[384];
-    snprintf(title, sizeof title, "%s on %s (%zu triangles), %ux%u, model %s%s%s", r->options.kernel->name, r->scene_name,
-             r->triangle_count, r->options.width, r->options.height, run_model_names[r->options.model],
-             accounted ? ", machine " : "", accounted ? r->machine->name : "");
+    char title[STATS_TITLE_SIZE];
+    stats_title(r, title, sizeof title);
     report_table *t = report_table_create(title);
     report_table_add_column(t, &(report_column){.name = "statistic"});
     report_table_add_column(t, &(report_column){.name = "value", .kind = REPORT_INTEGER});
@@ -351,12 +375,13 @@ report_table *stats_table(const run_result *r, double load_seconds)
         add_row(t, r, "total", r->cycles);
     }
     if (has_stalls(r)) {
-        const sim_cycles cycles = cycles_of(r);
+        const sim_cycles cycles = stats_cycles(r);
         add_object(t, r, "cycles by phase", phases_json(r));
-        add_object(t, r, "cycles by stall", stalls_json(&cycles));
+        add_object(t, r, "cycles by stall", stats_stalls_json(&cycles));
+        add_object(t, r, "cycles by op, issue and waiting", op_cycles_json(r));
     }
     if (r->options.model == RUN_CORE) {
-        add_object(t, r, "cycles of the threads by stall", stalls_json(&r->core.threads));
+        add_object(t, r, "cycles of the threads by stall", stats_stalls_json(&r->core.threads));
         add_object(t, r, "lower bounds of the cycles", bounds_json(r));
         add_object(t, r, "memory", memory_json(r));
         add_object(t, r, "branches", branches_json(r));

@@ -23,6 +23,7 @@ typedef struct kernel_info {
     kernel_params defaults;
     uint64_t counters;         /* bit i: counter i is reported */
     kernel_tile_fn *tile[LRB_LEVELS]; /* by level */
+    kernel_tile_fn *annotated; /* LRB_RECORD, with more markers (lrbni/annotate.h) */
 } kernel_info;
 
 /** All kernels; *count entries. */
@@ -43,14 +44,17 @@ typedef enum kernel_phase {
 /** "setup", "traversal" and so on. */
 extern const char *const kernel_phase_names[KERNEL_PHASE_COUNT];
 
-/* Numbers of the source files whose branches appear in events (LRB_SOURCE). */
-enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, KERNEL_SOURCE_CORNER_CULL, KERNEL_SOURCE_PACKET16, KERNEL_SOURCE_MFT };
+/* Numbers of the source files, for branches and lines in events (LRB_SOURCE; kernels/sources.h has the files). */
+enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, KERNEL_SOURCE_CORNER_CULL, KERNEL_SOURCE_PACKET16, KERNEL_SOURCE_MFT,
+       KERNEL_SOURCE_RAYS };
 
 /* The name of a tile function at the level that is being compiled: mft_primary_count. */
 #if defined(LRB_LEVEL) && LRB_LEVEL == 0
 #define KERNEL_TILE_FN(name) name##_native
 #elif defined(LRB_LEVEL) && LRB_LEVEL == 1
 #define KERNEL_TILE_FN(name) name##_count
+#elif defined(LRB_ANNOTATED)
+#define KERNEL_TILE_FN(name) name##_annotated
 #elif defined(LRB_LEVEL) && LRB_LEVEL == 2
 #define KERNEL_TILE_FN(name) name##_record
 #endif

@@ -8,8 +8,11 @@
 
 #include <stddef.h>
 
-#include "kernels/job.h"
+#include "kernels/kernel.h"
 #include "lrbni/lrbni.h"
+
+#undef LRB_SOURCE
+#define LRB_SOURCE KERNEL_SOURCE_RAYS
 
 /* Memory operand of a field of the job's constants. */
 #define RAYS16_CONSTANT(constants, field) lrb_at(constants, (int32_t)offsetof(job_constants, field))

@@ -4,8 +4,8 @@
 
 const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection"};
 
-/* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count and mft_primary_record */
-#define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record
+/* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count, mft_primary_record and mft_primary_annotated */
+#define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record, name##_annotated
 KERNEL_TILES(packet16_primary);
 KERNEL_TILES(mft_primary);
 #undef KERNEL_TILES
@@ -27,6 +27,7 @@ const kernel_info *kernel_list(size_t *count)
             .defaults = {.cull_backface = 0, .max_leaf = 2, .bins = 16},
             .counters = tracing_counters | BIT(units_packets),
             .tile = {packet16_primary_native, packet16_primary_count, packet16_primary_record},
+            .annotated = packet16_primary_annotated,
         },
         {
             .name = "mft-primary",
@@ -35,6 +36,7 @@ const kernel_info *kernel_list(size_t *count)
             .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16},
             .counters = tracing_counters | BIT(units_groups) | BIT(units_frusta),
             .tile = {mft_primary_native, mft_primary_count, mft_primary_record},
+            .annotated = mft_primary_annotated,
         },
     };
     *count = sizeof kernels / sizeof *kernels;

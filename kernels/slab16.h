@@ -39,15 +39,10 @@ typedef struct slab16 {
     lrb_v16f near_rcp[3]; /* COMMON, BLEND: 1 / largest magnitude; ZERO: 1 / largest component, positive */
     lrb_v16f back_rcp[3]; /* ZERO: 1 / smallest component, negative */
     lrb_v16f far_rcp[3];  /* 1 / smallest magnitude, where the lane has a sign */
-    lrb_k16 negative[3];  /* BLEND: lanes with negative components */
-    lrb_k16 strict[3];    /* ZERO: lanes whose interval does not hold 0 */
+    lrb_k16 negative[3];  /* BLEND: active lanes with negative components */
+    lrb_k16 strict[3];    /* ZERO: active lanes whose interval does not hold 0 */
     lrb_ptr near_plane[3], far_plane[3]; /* COMMON: addresses of the first box's planes in scratch */
 } slab16;
-
-/* Signs of one axis: lanes strictly positive and strictly negative. */
-typedef struct slab16_signs {
-    lrb_k16 positive, negative;
-} slab16_signs;
 
 LRB_INLINE void slab16_setup_zero(lrb_ctx *c, slab16 *s, lrb_ptr constants, const lrb_v16f lo[3], const lrb_v16f hi[3])
 {
@@ -59,15 +54,17 @@ LRB_INLINE void slab16_setup_zero(lrb_ctx *c, slab16 *s, lrb_ptr constants, cons
     }
 }
 
-/* One sign for all active lanes on every axis? Then the near planes are the same for all. */
-LRB_INLINE bool slab16_setup_common(lrb_ctx *c, slab16 *s, lrb_ptr scratch, lrb_k16 active, const slab16_signs signs[3])
+/* One sign for all active lanes, each of which has one, on every axis? Then the near planes are the same for all. */
+LRB_INLINE bool slab16_setup_common(lrb_ctx *c, slab16 *s, lrb_ptr scratch, lrb_k16 active)
 {
     for (int axis = 0; axis < 3; axis++) {
-        lrb_k16 negative = lrb_kand(c, signs[axis].negative, active);
-        lrb_k16 positive = lrb_kand(c, signs[axis].positive, active);
+        lrb_k16 negative = s->negative[axis];
         bool any_negative = !lrb_jz(c, lrb_kortest(c, negative, negative));
-        if (any_negative && lrb_jnz(c, lrb_kortest(c, positive, positive)))
-            return false;
+        if (any_negative) {
+            lrb_k16 positive = lrb_kxor(c, negative, active);
+            if (lrb_jnz(c, lrb_kortest(c, positive, positive)))
+                return false;
+        }
         int near_word = any_negative ? axis + 4 : axis;
         s->near_plane[axis] = lrb_lea(c, scratch, lrb_imm(0), 1, SCRATCH_BOXES + 4 * near_word);
         s->far_plane[axis] = lrb_lea(c, scratch, lrb_imm(0), 1, SCRATCH_BOXES + 4 * (near_word ^ 4));
@@ -85,7 +82,6 @@ LRB_INLINE bool slab16_setup_common(lrb_ctx *c, slab16 *s, lrb_ptr scratch, lrb_
 LRB_INLINE void slab16_setup(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr scratch, lrb_k16 active, lrb_v16f lo[3],
                              lrb_v16f hi[3], kernel_counts *n)
 {
-    slab16_signs signs[3];
     lrb_v16f slack = lrb_load_1to16_ps(c, RAYS16_CONSTANT(constants, slack));
     lrb_k16 all_strict = active;
     s->infinity = lrb_load_ps(c, RAYS16_CONSTANT(constants, infinity));
@@ -95,12 +91,11 @@ LRB_INLINE void slab16_setup(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr s
         s->near_plane[axis] = s->far_plane[axis] = scratch;
         lo[axis] = lrb_sub_ps(c, lo[axis], slack);
         hi[axis] = lrb_add_ps(c, hi[axis], slack);
-        signs[axis].positive = lrb_cmplt_ps(c, s->zero, lo[axis]);
-        signs[axis].negative = lrb_cmplt_ps(c, hi[axis], s->zero);
-        s->negative[axis] = signs[axis].negative;
-        s->strict[axis] = lrb_kor(c, signs[axis].positive, signs[axis].negative);
+        s->negative[axis] = lrb_mask_cmplt_ps(c, active, hi[axis], s->zero);
+        lrb_k16 positive = lrb_mask_cmplt_ps(c, active, s->zero, lo[axis]);
+        s->strict[axis] = lrb_kor(c, positive, s->negative[axis]);
         all_strict = lrb_kand(c, all_strict, s->strict[axis]);
-        lrb_v16f smallest = lrb_mask_mov_ps(c, lo[axis], signs[axis].negative, hi[axis]);
+        lrb_v16f smallest = lrb_mask_mov_ps(c, lo[axis], s->negative[axis], hi[axis]);
         s->far_rcp[axis] = rays16_reciprocal(c, smallest);
     }
     lrb_k16 some_zero = lrb_kxor(c, all_strict, active);
@@ -111,8 +106,8 @@ LRB_INLINE void slab16_setup(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr s
         return;
     }
     for (int axis = 0; axis < 3; axis++)
-        s->near_rcp[axis] = rays16_reciprocal(c, lrb_mask_mov_ps(c, hi[axis], signs[axis].negative, lo[axis]));
-    s->path = slab16_setup_common(c, s, scratch, active, signs) ? SLAB16_COMMON : SLAB16_BLEND;
+        s->near_rcp[axis] = rays16_reciprocal(c, lrb_mask_mov_ps(c, hi[axis], s->negative[axis], lo[axis]));
+    s->path = slab16_setup_common(c, s, scratch, active) ? SLAB16_COMMON : SLAB16_BLEND;
     n->n[s->path == SLAB16_COMMON ? KERNEL_units_common : KERNEL_units_blend]++;
 }
 

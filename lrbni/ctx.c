@@ -39,6 +39,7 @@ void lrb_ctx_begin(lrb_ctx *c)
 {
     c->control = (lrb_control){0};
     c->next_event = LRB_FAR;
+    c->line = 0;
     c->free_event = c->events;
 }
 

@@ -28,6 +28,7 @@ typedef struct lrb_ctx {
 
     /* LRB_RECORD */
     uint32_t next_event; /* id of the next op's event; ids of a tile start at LRB_FAR; fewer than 2^32 ops a tile */
+    uint32_t line;       /* LRB_ANNOTATED (lrbni/annotate.h): source and line of the last op; 0: none yet */
     lrb_event *free_event; /* where in the batch the next event goes; markers have a place there, but no id */
     lrb_event *events_end; /* behind the last place of the batch */
     lrb_event_sink *sink;

@@ -19,4 +19,8 @@
 #include "lrbni/ops/scalar_memory.h"
 #include "lrbni/ops/shuffle.h"
 
+#ifdef LRB_ANNOTATED
+#include "lrbni/annotate.h"
+#endif
+
 #endif

@@ -115,7 +115,7 @@ static inline void access_memory(sim_core *s, core_thread *h, const sim_op_price
 }
 
 /* The thread's next op issues in this cycle. */
-static inline void perform(sim_core *s, core_thread *h)
+static inline void perform(sim_core *s, core_thread *h, const bool joined)
 {
     const sim_op_price *p = h->price;
     const lrb_event *e = h->op->event;
@@ -132,7 +132,7 @@ static inline void perform(sim_core *s, core_thread *h)
         if (p->flags & SIM_PRICE_HINT)
             core_take_hint(s, h, e);
         if (p->flags & SIM_PRICE_TOLD)
-            core_tell(s, h, e);
+            core_tell_op(s, h, e, joined);
     }
     h->next++;
     h->op++;
@@ -174,6 +174,10 @@ static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycl
     s->thread_waited[bucket] += ready_at - h->waits_from;
     s->core_waited[bucket] += cycle - idle_from;
     s->op_cycles[id] += cycle - s->now;
+    if (s->profile) {
+        sim_profile_wait(s->profile, &h->at, id, SIM_BUCKET_NONE, idle_from - s->now - 1);
+        sim_profile_wait(s->profile, &h->at, id, bucket, cycle - idle_from);
+    }
     h->cycles += cycle - s->now;
     s->now = cycle;
     h->now = sim_blame(cycle, 0);
@@ -183,13 +187,13 @@ static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycl
 static inline sim_blamed issue(sim_core *s, core_thread *h)
 {
     const lrb_event *first = h->op->event;
-    perform(s, h);
+    perform(s, h, false);
     if (!core_find_op(s, h))
         return 0;
     sim_blamed at = earliest(s, h);
     if (joins(s, h, first, at)) {
-        s->joins[h->price->class_id]++;
-        perform(s, h);
+        s->joins[h->op->event->op & (CORE_OPS - 1)]++;
+        perform(s, h, true);
         h->partners = 0;
         at = core_find_op(s, h) ? earliest(s, h) : 0;
     }

@@ -20,6 +20,7 @@
 #include "sim/hierarchy.h"
 #include "sim/machine.h"
 #include "sim/observer.h"
+#include "sim/profile.h"
 
 /* All members are plain sums, so that the stats of cores add up. */
 typedef struct sim_core_stats {
@@ -31,6 +32,7 @@ typedef struct sim_core_stats {
     uint64_t phase_vector_ops[SIM_MAX_PHASES]; /* vector ops of the phase */
     uint64_t phase_idle_lanes[SIM_MAX_PHASES]; /* lanes that their masks switched off */
     uint64_t ops[LRB_OP_COUNT];       /* ops issued; markers too, which take no cycle */
+    uint64_t op_issues[LRB_OP_COUNT]; /* cycles in which it issued, alone or first */
     uint64_t op_cycles[LRB_OP_COUNT]; /* core cycles that began with this op, or in which it was waited for */
     uint64_t memory_operands;     /* ops whose last source was in memory; loads and stores apart */
     uint64_t branches, mispredicted, btb_misses;
@@ -60,6 +62,9 @@ base_status sim_core_create(const sim_machine *machine, sim_core **out, base_err
 
 /** Free a core; sets the pointer to NULL. */
 void sim_core_destroy(sim_core **core);
+
+/** Charge the core's cycles to a profile, not NULL, as well; it must outlive the core. */
+void sim_core_set_profile(sim_core *core, sim_profile *profile);
 
 /** Tell `observer`, not NULL, of all events from now on. Cycles are those of the run, the first is 1. */
 void sim_core_observe(sim_core *core, sim_observer *observer, void *user);

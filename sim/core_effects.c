@@ -103,12 +103,31 @@ void core_outlast(sim_core *s, core_thread *h, const sim_op_price *p)
         hold_thread(h, h->now + sim_blame(p->blocking, SIM_BUCKET_BLOCKED));
 }
 
+static void tell_of_all(sim_core *s)
+{
+    for (uint32_t op = 0; op <= UINT16_MAX; op++)
+        s->price[op].flags |= SIM_PRICE_TOLD;
+}
+
+void sim_core_set_profile(sim_core *s, sim_profile *profile)
+{
+    s->profile = profile;
+    tell_of_all(s);
+}
+
 void sim_core_observe(sim_core *s, sim_observer *observer, void *user)
 {
     s->observer = observer;
     s->observer_user = user;
-    for (uint32_t op = 0; op <= UINT16_MAX; op++)
-        s->price[op].flags |= SIM_PRICE_TOLD;
+    tell_of_all(s);
+}
+
+void core_tell_op(sim_core *s, core_thread *h, const lrb_event *e, bool joined)
+{
+    if (s->profile)
+        sim_profile_issue(s->profile, &h->at, e->op & (CORE_OPS - 1), s->price[e->op].lanes, e->mask, joined);
+    if (s->observer)
+        core_tell(s, h, e);
 }
 
 void core_tell(sim_core *s, const core_thread *h, const lrb_event *e)

@@ -8,6 +8,7 @@
 #include "sim/branch.h"
 #include "sim/core.h"
 #include "sim/pipeline.h"
+#include "sim/profile_charge.h"
 #include "sim/slots.h"
 
 /* Turns are blamed times that have a thread's place in the order of choice instead of the bucket. */
@@ -58,6 +59,7 @@ typedef struct core_thread {
     uint64_t phase_start, region_start; /* of these */
     uint32_t phase, region;
     uint64_t regions[SIM_MAX_REGIONS + 1]; /* of the tile */
+    sim_whereabouts at;
 
     const lrb_event *decoded, *end; /* the tile's events from `decoded` on are not in the block yet; NULL: no tile */
     uint32_t trailing;      /* markers before `decoded` that no op follows */
@@ -87,15 +89,15 @@ struct sim_core {
     sim_slots prefetches; /* count 0: there may be none */
 
     uint64_t ops[CORE_OPS], op_cycles[CORE_OPS];
-    uint64_t joins[LRB_CLASS_COUNT]; /* ops that joined another's cycle, by class */
+    uint64_t joins[CORE_OPS]; /* ops that joined another's cycle */
     uint64_t core_waited[SIM_BUCKETS], thread_waited[SIM_BUCKETS];
     uint64_t began; /* the run */
     uint64_t runs_of_threads; /* runs of all threads that had work */
-    sim_core_stats stats;
-
+    sim_profile *profile;   /* or NULL; not owned */
     sim_observer *observer; /* or NULL */
     void *observer_user;
-    uint64_t told; /* cycle of the op that it was told of last */
+    uint64_t told; /* cycle of the op that the observer was told of last */
+    sim_core_stats stats;
 };
 
 /** Set when a thread's next op can issue, and the bucket to blame. */
@@ -145,7 +147,10 @@ void core_take_hint(sim_core *s, core_thread *h, const lrb_event *e);
 /** An op of a lasting class issues: the class is busy for all threads, and the thread perhaps blocked. */
 void core_outlast(sim_core *s, core_thread *h, const sim_op_price *p);
 
-/** Tell the observer of the op that issues, or of a marker. */
+/** Tell the profile and the observer of the op that issues: first in its cycle, or beside the op before it. */
+void core_tell_op(sim_core *s, core_thread *h, const lrb_event *e, bool joined);
+
+/** Tell the observer of an event. */
 void core_tell(sim_core *s, const core_thread *h, const lrb_event *e);
 
 /** Put the cycles before `cycle` that a thread has spent into their buckets. */

@@ -5,46 +5,16 @@ static void collect_issues(const sim_core *s, sim_core_stats *to)
 {
     uint64_t issues = 0, joins_sum = 0;
     for (int id = 0; id < LRB_OP_COUNT; id++) {
-        uint64_t issued = lrb_op_table[id].shape == LRB_SHAPE_MARK ? 0 : s->ops[id];
+        uint64_t first = lrb_op_table[id].shape == LRB_SHAPE_MARK ? 0 : s->ops[id] - s->joins[id];
         to->ops[id] = s->ops[id];
         to->op_cycles[id] = s->op_cycles[id];
-        to->issued_by_class[lrb_op_table[id].class_id] += issued;
-        issues += issued;
+        to->op_issues[id] = first;
+        to->issued_by_class[lrb_op_table[id].class_id] += first;
+        issues += first;
+        joins_sum += s->joins[id];
     }
-    for (int k = 0; k < LRB_CLASS_COUNT; k++) {
-        to->issued_by_class[k] -= s->joins[k];
-        joins_sum += s->joins[k];
-    }
-    issues -= joins_sum;
     to->core.issued_pair = to->threads.issued_pair = joins_sum;
     to->core.issued_one = to->threads.issued_one = issues - joins_sum;
-}
-
-static void collect_waits(const uint64_t waited[SIM_BUCKETS], sim_cycles *to)
-{
-    for (int k = 0; k < LRB_CLASS_COUNT; k++) {
-        for (int kind = 0; kind < SIM_CONSUMERS; kind++)
-            to->operand[k][kind] = waited[SIM_BUCKET_OPERAND + k * SIM_CONSUMERS + kind];
-        to->busy[k] = waited[SIM_BUCKET_BUSY + k];
-    }
-    to->l2 = waited[SIM_BUCKET_L2];
-    to->memory = waited[SIM_BUCKET_MEMORY];
-    to->store_forward = waited[SIM_BUCKET_STORE];
-    to->blocked = waited[SIM_BUCKET_BLOCKED];
-    to->delay = waited[SIM_BUCKET_DELAY];
-    to->mispredict = waited[SIM_BUCKET_MISPREDICT];
-    to->btb_miss = waited[SIM_BUCKET_BTB_MISS];
-    to->misses = waited[SIM_BUCKET_MISSES];
-    to->prefetches = waited[SIM_BUCKET_PREFETCHES];
-}
-
-static uint64_t sum_of(const sim_cycles *cycles)
-{
-    const uint64_t *bucket = (const uint64_t *)cycles;
-    uint64_t sum = 0;
-    for (size_t i = 0; i < sizeof *cycles / sizeof *bucket; i++)
-        sum += bucket[i];
-    return sum;
 }
 
 /* The gaps of a thread lie between its issues; what of all cycles is in no other bucket was the core's gaps, and the
@@ -53,11 +23,11 @@ sim_core_stats sim_core_get(const sim_core *s)
 {
     sim_core_stats stats = s->stats;
     collect_issues(s, &stats);
-    collect_waits(s->core_waited, &stats.core);
-    collect_waits(s->thread_waited, &stats.threads);
+    sim_cycles_of_buckets(s->core_waited, &stats.core);
+    sim_cycles_of_buckets(s->thread_waited, &stats.threads);
     stats.threads.gap = (stats.core.issued_one + stats.core.issued_pair - s->runs_of_threads) * (s->gap - 1);
-    stats.core.gap = stats.cycles - sum_of(&stats.core);
-    stats.threads.other_thread = stats.cycles * s->threads - sum_of(&stats.threads);
+    stats.core.gap = stats.cycles - sim_cycles_sum(&stats.core);
+    stats.threads.other_thread = stats.cycles * s->threads - sim_cycles_sum(&stats.threads);
     stats.memory = s->memory->counts;
     return stats;
 }

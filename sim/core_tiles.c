@@ -7,7 +7,7 @@ static void end_phase(sim_core *s, core_thread *h, uint32_t next)
 {
     s->stats.phase[h->phase] += h->cycles - h->phase_start;
     h->phase_start = h->cycles;
-    h->phase = next < SIM_MAX_PHASES ? next : SIM_MAX_PHASES - 1;
+    h->phase = h->at.phase = next < SIM_MAX_PHASES ? next : SIM_MAX_PHASES - 1;
 }
 
 static void end_region(core_thread *h, uint32_t next)
@@ -19,13 +19,15 @@ static void end_region(core_thread *h, uint32_t next)
 
 static void pass(sim_core *s, core_thread *h, const lrb_event *markers, uint32_t count)
 {
-    for (uint32_t i = 0; i < count; i++) {
+    for (const lrb_event *e = markers; e < markers + count; e++) {
         if (s->observer)
-            core_tell(s, h, &markers[i]);
-        if ((markers[i].op & LRB_EVENT_ID) == LRB_OP_phase)
-            end_phase(s, h, markers[i].aux);
-        else
-            end_region(h, markers[i].aux);
+            core_tell(s, h, e);
+        if ((e->op & LRB_EVENT_ID) == LRB_OP_phase)
+            end_phase(s, h, e->aux);
+        else if ((e->op & LRB_EVENT_ID) == LRB_OP_region)
+            end_region(h, e->aux);
+        else if ((e->op & LRB_EVENT_ID) == LRB_OP_line)
+            h->at.site = e->aux;
     }
 }
 
@@ -117,6 +119,7 @@ bool core_begin_tile(sim_core *s, core_thread *h, const lrb_event *events, size_
     h->late_until = h->stores_until = 0;
     h->partners = 0;
     h->phase = h->decoded_phase = 0;
+    h->at = (sim_whereabouts){0};
     h->region = SIM_MAX_REGIONS;
     h->phase_start = h->region_start = h->cycles;
     h->decoded = events;

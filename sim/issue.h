@@ -27,6 +27,7 @@
 #include "sim/cycles.h"
 #include "sim/machine.h"
 #include "sim/observer.h"
+#include "sim/profile.h"
 
 /* Where the cycles went; plain sums, so that stats of tiles add up. */
 typedef struct sim_issue_stats {
@@ -39,9 +40,12 @@ typedef struct sim_issue_stats {
     uint64_t store_forward;           /* a load waiting for a store to the same words */
     uint64_t issued_by_class[LRB_CLASS_COUNT]; /* issue cycles, by the class of the first op: sums to issued_one + issued_pair */
     uint64_t phase[SIM_MAX_PHASES];   /* cycles by phase of the op that began them or was waited for; 15: 15 and beyond */
+    uint64_t phase_vector_ops[SIM_MAX_PHASES]; /* vector ops of the phase */
+    uint64_t phase_idle_lanes[SIM_MAX_PHASES]; /* lanes that their masks switched off */
     uint64_t ops[LRB_OP_COUNT];       /* ops issued; markers too, which take no cycle */
+    uint64_t op_issues[LRB_OP_COUNT]; /* cycles in which it issued, alone or first */
+    uint64_t op_cycles[LRB_OP_COUNT]; /* cycles that began with this op, or in which it was waited for */
     uint64_t memory_operands;         /* ops whose last source was in memory; loads and stores apart */
-    uint64_t idle_lanes;              /* lanes switched off by masks, summed over vector ops */
 } sim_issue_stats;
 
 typedef struct sim_issue sim_issue;
@@ -57,6 +61,9 @@ base_status sim_issue_create(const sim_machine *machine, sim_issue **out, base_e
 
 /** Free a simulator; sets the pointer to NULL. */
 void sim_issue_destroy(sim_issue **s);
+
+/** Charge cycles to a profile as well, which must outlive the simulator or the next call; NULL: no more. Not within a tile. */
+void sim_issue_set_profile(sim_issue *s, sim_profile *profile);
 
 /** Begin a tile: an empty pipeline, phase 0, region 'whole tile'. */
 void sim_issue_begin(sim_issue *s);

@@ -51,7 +51,7 @@ enum {
     SIM_PRICE_LASTING = 8,
     SIM_PRICE_BRANCH = 16,
     SIM_PRICE_HINT = 32,
-    SIM_PRICE_TOLD = 64 /* an observer is told of it */
+    SIM_PRICE_TOLD = 64 /* a profile or an observer is told of it */
 };
 
 /* The price of an op in one form; 64 bytes. */

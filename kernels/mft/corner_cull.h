@@ -19,10 +19,11 @@
 #undef LRB_SOURCE
 #define LRB_SOURCE KERNEL_SOURCE_CORNER_CULL
 
-/* Directions of the four corner rays of 16 frusta, lane = frustum. */
-typedef struct corner_rays {
-    lrb_v16f d[4][3];
-} corner_rays;
+/* Directions of corner ray k of the 16 frusta in scratch, lane = frustum; 12 vectors are too many to keep in registers. */
+LRB_INLINE lrb_mem corner_cull_ray(lrb_ptr scratch, int k, int axis)
+{
+    return lrb_at(scratch, k == 0 ? SCRATCH_CORNERS + 64 * axis : SCRATCH_OTHER_CORNERS + 192 * (k - 1) + 64 * axis);
+}
 
 /* Leave the rounding bound of each edge plane in scratch, in all words of the edge's group. */
 LRB_INLINE void corner_cull_guard(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch, lrb_v16f zero, lrb_v16f edges, bool cull)
@@ -35,13 +36,18 @@ LRB_INLINE void corner_cull_guard(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch
         lrb_store_ps(c, lrb_at(scratch, SCRATCH_MINUS_GUARD), lrb_sub_ps(c, zero, guard));
 }
 
-/* Smallest and largest volume over one edge among the four corner rays. */
-LRB_INLINE void corner_cull_range(lrb_ctx *c, lrb_ptr scratch, int edge, const corner_rays *corners, bool cull, lrb_v16f *smallest,
-                                  lrb_v16f *largest)
+/* Smallest and largest volume over one edge among the four corner rays: triangle16_edge with the factors exchanged, for the four
+   side by side, so that none waits for its own last product. */
+LRB_INLINE void corner_cull_range(lrb_ctx *c, lrb_ptr scratch, int edge, bool cull, lrb_v16f *smallest, lrb_v16f *largest)
 {
-    lrb_v16f volume[4];
+    lrb_v16f plane[3], volume[4];
+    for (int axis = 0; axis < 3; axis++)
+        plane[axis] = lrb_load_1to16_ps(c, lrb_at(scratch, edge + triangle16_component[axis]));
     for (int k = 0; k < 4; k++)
-        volume[k] = triangle16_edge(c, scratch, edge, corners->d[k]);
+        volume[k] = lrb_mul_ps_s3(c, plane[0], lrb_full_ps(corner_cull_ray(scratch, k, 0)));
+    for (int axis = 1; axis < 3; axis++)
+        for (int k = 0; k < 4; k++)
+            volume[k] = lrb_madd231_ps_s3(c, volume[k], plane[axis], lrb_full_ps(corner_cull_ray(scratch, k, axis)));
     lrb_v16f half = lrb_min_ps(c, volume[0], volume[1]);
     lrb_v16f other = lrb_min_ps(c, volume[2], volume[3]);
     *smallest = lrb_min_ps(c, half, other);
@@ -54,15 +60,14 @@ LRB_INLINE void corner_cull_range(lrb_ctx *c, lrb_ptr scratch, int edge, const c
 }
 
 /**
- * The frusta of m that may hold a hit of the triangle which triangle16_setup left in scratch.
+ * The frusta of m, whose corner rays are in scratch, that may hold a hit of the triangle which triangle16_setup left there.
  *
  * @param edges  the edge planes that it returned
  * @param cull   1: front hits only, all volumes negative; 0: or all positive
  *
  * Returns early, with no lanes, after the first edge that leaves none.
  */
-LRB_INLINE lrb_k16 corner_cull(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch, lrb_v16f zero, const corner_rays *corners,
-                               lrb_v16f edges, bool cull, lrb_k16 m)
+LRB_INLINE lrb_k16 corner_cull(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch, lrb_v16f zero, lrb_v16f edges, bool cull, lrb_k16 m)
 {
     static const int edge_planes[3] = {TRIANGLE16_EDGE_A, TRIANGLE16_EDGE_B, TRIANGLE16_EDGE_C};
     lrb_k16 front = m, back = m;
@@ -70,7 +75,7 @@ LRB_INLINE lrb_k16 corner_cull(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch, l
     for (int i = 0; i < 3; i++) {
         lrb_v16f smallest, largest;
         int group = edge_planes[i] - SCRATCH_EDGES;
-        corner_cull_range(c, scratch, edge_planes[i], corners, cull, &smallest, &largest);
+        corner_cull_range(c, scratch, edge_planes[i], cull, &smallest, &largest);
         front = lrb_mask_cmple_ps_s3(c, front, smallest, lrb_1to16_ps(lrb_at(scratch, SCRATCH_GUARD + group)));
         if (!cull)
             back = lrb_mask_cmpnlt_ps_s3(c, back, largest, lrb_1to16_ps(lrb_at(scratch, SCRATCH_MINUS_GUARD + group)));

@@ -14,7 +14,6 @@
 typedef struct mft_group {
     lrb_ptr constants, scratch, frame;
     lrb_v16f origin; /* for triangle records */
-    corner_rays corners;
     lrb_v16f delta[3]; /* of the 16 rays of a frustum */
     bool cull;
     kernel_counts *n;
@@ -52,7 +51,7 @@ LRB_INLINE lrb_r64 mft_triangle(lrb_ctx *c, const slab16 *s, const mft_group *g,
     lrb_phase(c, KERNEL_PHASE_CULLING);
     if (!triangle16_setup(c, g->scratch, g->origin, record, g->cull, &edges))
         return updated;
-    lrb_k16 survivors = corner_cull(c, g->constants, g->scratch, s->zero, &g->corners, edges, g->cull, m);
+    lrb_k16 survivors = corner_cull(c, g->constants, g->scratch, s->zero, edges, g->cull, m);
     if (!survivors.bits) /* the branch is corner_cull's own */
         return updated;
     g->n->n[KERNEL_tri_after_culling]++;
@@ -100,17 +99,20 @@ LRB_INLINE void mft_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr record, lrb_
 LRB_INLINE void mft_frusta(lrb_ctx *c, mft_group *g, lrb_ptr tile, lrb_v16f lo[3], lrb_v16f hi[3])
 {
     static const int ray[4] = {0, 3, 15, 12};
-    rays16_corners(c, g->constants, tile, g->corners.d[0]);
+    lrb_v16f first[3];
+    rays16_corners(c, g->constants, tile, first);
     for (int axis = 0; axis < 3; axis++) {
-        lrb_v16f *corner[4] = {&g->corners.d[0][axis], &g->corners.d[1][axis], &g->corners.d[2][axis], &g->corners.d[3][axis]};
-        lrb_store_ps(c, lrb_at(g->scratch, SCRATCH_CORNERS + 64 * axis), *corner[0]);
-        for (int k = 1; k < 4; k++)
-            *corner[k] = lrb_add_ps_s3(c, *corner[0], lrb_1to16_ps(RAYS16_CONSTANT(g->constants, delta[axis][ray[k]])));
-        lrb_v16f half = lrb_min_ps(c, *corner[0], *corner[1]);
-        lrb_v16f other = lrb_min_ps(c, *corner[2], *corner[3]);
+        lrb_v16f corner[4] = {first[axis]};
+        lrb_store_ps(c, corner_cull_ray(g->scratch, 0, axis), corner[0]);
+        for (int k = 1; k < 4; k++) {
+            corner[k] = lrb_add_ps_s3(c, corner[0], lrb_1to16_ps(RAYS16_CONSTANT(g->constants, delta[axis][ray[k]])));
+            lrb_store_ps(c, corner_cull_ray(g->scratch, k, axis), corner[k]);
+        }
+        lrb_v16f half = lrb_min_ps(c, corner[0], corner[1]);
+        lrb_v16f other = lrb_min_ps(c, corner[2], corner[3]);
         lo[axis] = lrb_min_ps(c, half, other);
-        half = lrb_max_ps(c, *corner[0], *corner[1]);
-        other = lrb_max_ps(c, *corner[2], *corner[3]);
+        half = lrb_max_ps(c, corner[0], corner[1]);
+        other = lrb_max_ps(c, corner[2], corner[3]);
         hi[axis] = lrb_max_ps(c, half, other);
         g->delta[axis] = lrb_load_ps(c, RAYS16_CONSTANT(g->constants, delta[axis]));
     }

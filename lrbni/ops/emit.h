@@ -25,11 +25,35 @@ LRB_INLINE void lrb_put(lrb_ctx *c, lrb_event *e)
 }
 #endif
 
+/* Put a marker into the stream: LRB_RECORD only. */
+LRB_INLINE void lrb_mark(lrb_ctx *c, lrb_op_id marker, uint32_t number)
+{
+#if LRB_LEVEL == LRB_RECORD
+    lrb_event *e = c->free_event;
+    *e = (lrb_event){.op = (uint16_t)marker, .aux = number};
+    lrb_put(c, e);
+#else
+    (void)c, (void)marker, (void)number;
+#endif
+}
+
+/* A source that is too far back for the event of the next op has a marker of its own. */
+LRB_INLINE void lrb_mark_far(lrb_ctx *c, uint32_t source, uint32_t from)
+{
+#if LRB_LEVEL == LRB_RECORD && defined(LRB_ANNOTATED)
+    if (from && c->next_event - from >= LRB_FAR)
+        lrb_mark(c, LRB_OP_far, (c->next_event - from) << 2 | source);
+#else
+    (void)c, (void)source, (void)from;
+#endif
+}
+
 /* Tell the context of one op and return the event's id; sources are the ids of the events that made them. */
 LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t mask, uint32_t s0, uint32_t s1, uint32_t s2,
                              uint32_t s3, uint32_t aux)
 {
 #if LRB_LEVEL == LRB_RECORD
+    lrb_mark_far(c, 0, s0), lrb_mark_far(c, 1, s1), lrb_mark_far(c, 2, s2), lrb_mark_far(c, 3, s3);
     lrb_event *e = c->free_event;
     uint32_t id = c->next_event;
     *e = (lrb_event){.op = (uint16_t)(op | form), .mask = (uint16_t)mask, .aux = aux,
@@ -49,19 +73,7 @@ LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t ma
 #endif
 }
 
-/* Put a marker into the stream: LRB_RECORD only. */
-LRB_INLINE void lrb_mark(lrb_ctx *c, lrb_op_id marker, uint32_t number)
-{
-#if LRB_LEVEL == LRB_RECORD
-    lrb_event *e = c->free_event;
-    *e = (lrb_event){.op = (uint16_t)marker, .aux = number};
-    lrb_put(c, e);
-#else
-    (void)c, (void)marker, (void)number;
-#endif
-}
-
-/* The same for a vector op under a mask: the lanes that it leaves idle are counted. */
+/* lrb_emit for a vector op under a mask: the lanes that it leaves idle are counted. */
 LRB_INLINE uint32_t lrb_emit_masked(lrb_ctx *c, unsigned op, unsigned form, lrb_k16 k, uint32_t s0, uint32_t s1, uint32_t s3,
                                     uint32_t aux)
 {

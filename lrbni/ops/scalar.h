@@ -222,7 +222,9 @@ LRB_INLINE bool lrb_jump_if_mask_not_zero(lrb_ctx *c, uint32_t site, lrb_k16 k)
 }
 
 /** An unconditional jump. */
-#define lrb_jmp(c) ((void)lrb_emit(c, LRB_OP_jmp, 0, 1, 0, 0, 0, 0, LRB_SITE))
+#define lrb_jmp(c) lrb_jump(c, LRB_SITE)
+
+LRB_INLINE void lrb_jump(lrb_ctx *c, uint32_t site) { lrb_emit(c, LRB_OP_jmp, 0, 1, 0, 0, 0, 0, site); }
 
 /* Markers: no instruction, no cycle; they tell the models where the stream is. Only LRB_RECORD has them. */
 /** What follows belongs to that phase of the kernel (a number of the kernel's own list of phases). */
@@ -231,5 +233,9 @@ LRB_INLINE void lrb_phase(lrb_ctx *c, uint32_t phase) { lrb_mark(c, LRB_OP_phase
 /** What follows is done for that region of the tile (kernels/kernel.h); LRB_WHOLE_TILE: for all of it. */
 #define LRB_WHOLE_TILE UINT32_MAX
 LRB_INLINE void lrb_region(lrb_ctx *c, uint32_t region) { lrb_mark(c, LRB_OP_region, region); }
+
+/** What follows is written in that source and line (LRB_SITE); what lrb_mark_far tells. Annotated kernels have them from their ops. */
+LRB_INLINE void lrb_line(lrb_ctx *c, uint32_t site) { lrb_mark(c, LRB_OP_line, site); }
+LRB_INLINE void lrb_far(lrb_ctx *c, uint32_t number) { lrb_mark(c, LRB_OP_far, number); }
 
 #endif

@@ -253,7 +253,7 @@ def ops__machine__its_costs(folder):
 
 
 def help__every_subcommand__exit_0(folder):
-    for name in ('run-kernel', 'report', 'regress', 'replay', 'kernels', 'scenes', 'machines', 'ops'):
+    for name in ('run-kernel', 'report', 'regress', 'replay', 'sensitivity', 'kernels', 'scenes', 'machines', 'ops'):
         result = run(name, '--help')
         assert result.returncode == 0 and 'Usage: lanetrace ' + name in result.stdout, result.stdout
     assert run('--help').returncode == 0 and run().returncode == 2

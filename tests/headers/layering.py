@@ -26,7 +26,7 @@ RULES = {
 INNER_RULES = {"lrbni/base": ["lrbni/base/"]}
 
 # Headers that the build makes.
-MADE = {"lanetrace/lrbni_intrinsics.h"}
+MADE = {"lanetrace/lrbni_intrinsics.h", "lrbni/op_lines.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 SOURCE = (".c", ".h", ".cpp", ".hpp", ".def")

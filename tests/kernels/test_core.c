@@ -9,25 +9,44 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/recorder.h"
+#include "kernels/kernel.h"
 #include "scene/scene.h"
 #include "tests/kernels/trace.h"
 #include "tests/sim/core_pair.h"
 
 enum { SIZE = 44, TILES = 9 }; /* a tile is 16 pixels wide */
 
-static void record(const kernel_info *kernel, const scene *s, const sim_machine *machine, recording tiles[TILES])
+/* The events of a tile. */
+typedef struct recording {
+    lrb_event *events; /* owned */
+    size_t count;
+} recording;
+
+static void append(void *user, const lrb_event *events, uint32_t count)
+{
+    recording *r = *(recording **)user;
+    r->events = realloc(r->events, (r->count + count) * sizeof *events);
+    assert_non_null(r->events);
+    memcpy(r->events + r->count, events, count * sizeof *events);
+    r->count += count;
+}
+
+static void record(const kernel_info *kernel, const scene *s, recording tiles[TILES])
 {
     kernel_job *job = NULL;
-    recorder r;
+    lrb_ctx *c = NULL;
+    recording *into = NULL;
+    kernel_counts n = {{0}};
     bvh *tree = trace_tree(s, kernel->defaults.max_leaf);
     assert_int_equal(kernel_job_create(tree, &s->cameras[0], SIZE, SIZE, &kernel->defaults, &job, NULL), BASE_OK);
     assert_int_equal(kernel_job_tiles(job), TILES);
-    const recorder_input input = {.tiles = TILES, .kernel = kernel, .job = job};
-    assert_int_equal(recorder_create(&input, machine, 0, &r, NULL), BASE_OK);
-    for (size_t i = 0; i < TILES; i++)
-        assert_int_equal(recorder_tile(&r, i, &tiles[i], NULL), BASE_OK);
-    recorder_destroy(&r);
+    assert_int_equal(lrb_ctx_create(append, &into, &c, NULL), BASE_OK);
+    for (uint32_t i = 0; i < TILES; i++) {
+        into = &tiles[i];
+        kernel->tile[LRB_RECORD](c, job, i, &n);
+        lrb_ctx_end(c);
+    }
+    lrb_ctx_destroy(&c);
     kernel_job_destroy(&job);
     bvh_destroy(&tree);
 }
@@ -38,7 +57,7 @@ static void compare(const kernel_info *kernel, const scene *s, const char *machi
     recording tiles[TILES] = {{0}};
     sim_machine *machine = NULL;
     assert_int_equal(sim_machine_load(machine_name, &machine, NULL), BASE_OK);
-    record(kernel, s, machine, tiles);
+    record(kernel, s, tiles);
     p.count = TILES;
     for (size_t i = 0; i < TILES; i++)
         p.tiles[i] = (slow_core_tile){.events = tiles[i].events, .count = tiles[i].count};
@@ -50,7 +69,7 @@ static void compare(const kernel_info *kernel, const scene *s, const char *machi
     if (strcmp(machine_name, "ideal") == 0) /* it has no stalls */
         assert_int_equal(p.fast.cycles, p.fast.core.issued_one + p.fast.core.issued_pair);
     for (size_t i = 0; i < TILES; i++)
-        recording_free(&tiles[i]);
+        free(tiles[i].events);
     sim_machine_destroy(&machine);
 }
 

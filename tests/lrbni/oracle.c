@@ -233,6 +233,8 @@ bool ref_jknzd(uint32_t a) { return a > 0; }
 bool ref_jmp(void) { return true; }
 uint32_t ref_phase(uint32_t number) { return number; }
 uint32_t ref_region(uint32_t number) { return number; }
+uint32_t ref_line(uint32_t number) { return number; }
+uint32_t ref_far(uint32_t number) { return number; }
 
 uint32_t ref_delay(uint64_t a) { return (uint32_t)(a % 4294967296u); }
 uint32_t ref_spflt(uint64_t a) { return (void)a, 0; }

@@ -57,7 +57,7 @@ static void print_number(size_t word, uint64_t fast, uint64_t slow)
         MEMBER(threads.l2), MEMBER(threads.memory), MEMBER(threads.store_forward), MEMBER(threads.busy), MEMBER(threads.blocked),
         MEMBER(threads.delay), MEMBER(threads.mispredict), MEMBER(threads.btb_miss), MEMBER(threads.misses),
         MEMBER(threads.prefetches), MEMBER(threads.other_thread), MEMBER(threads.no_work), MEMBER(issued_by_class), MEMBER(phase),
-        MEMBER(phase_vector_ops), MEMBER(phase_idle_lanes), MEMBER(ops), MEMBER(op_cycles), MEMBER(memory_operands),
+        MEMBER(phase_vector_ops), MEMBER(phase_idle_lanes), MEMBER(ops), MEMBER(op_issues), MEMBER(op_cycles), MEMBER(memory_operands),
         MEMBER(branches), MEMBER(mispredicted), MEMBER(btb_misses), MEMBER(bank_conflicts), MEMBER(memory),
     };
 #undef MEMBER

@@ -118,10 +118,11 @@ static lrb_event random_op(base_random *random, const flavour *f)
 
 void random_stream(base_random *random, lrb_event *events, uint32_t count)
 {
+    static const uint16_t markers[] = {LRB_OP_phase, LRB_OP_region, LRB_OP_line};
     flavour f = random_flavour(random);
     for (uint32_t i = 0; i < count; i++) {
         if (below(random, 256) < f.markers)
-            events[i] = (lrb_event){.op = below(random, 2) ? LRB_OP_phase : LRB_OP_region, .aux = below(random, 20)};
+            events[i] = (lrb_event){.op = markers[below(random, 3)], .aux = below(random, 20)};
         else
             events[i] = random_op(random, &f);
     }

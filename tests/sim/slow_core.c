@@ -283,7 +283,7 @@ static void pass_markers(slow_core *s, slow_thread *t)
         s->stats->ops[id_of(e)]++;
         if (id_of(e) == LRB_OP_phase)
             t->phase = e->aux < SIM_MAX_PHASES ? e->aux : SIM_MAX_PHASES - 1;
-        else
+        else if (id_of(e) == LRB_OP_region)
             t->region = e->aux < SIM_MAX_REGIONS ? e->aux : SIM_MAX_REGIONS;
     }
 }
@@ -345,6 +345,7 @@ static void charge(slow_core *s, slow_thread *t)
         core[t->issued && c < t->issued + s->machine->issue_gap ? BUCKET(gap) : t->last.bucket]++;
     s->stats->op_cycles[id_of(e)] += cycles;
     s->stats->issued_by_class[info_of(e)->class_id]++;
+    s->stats->op_issues[id_of(e)]++;
     s->stats->phase[t->phase] += cycles;
     t->tile->regions[t->region] += cycles;
 }

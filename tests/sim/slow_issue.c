@@ -93,6 +93,12 @@ static bool moves_lanes(const lrb_event *e, int i)
     case LRB_SHAPE_VI_XI:
     case LRB_SHAPE_V_VX:
     case LRB_SHAPE_VI_VX:
+    case LRB_SHAPE_VD_ps: /* and conversions from and to doubles, which read their source as early */
+    case LRB_SHAPE_VD_pi:
+    case LRB_SHAPE_V_pd_I:
+    case LRB_SHAPE_VI_pd_I:
+    case LRB_SHAPE_V_Vpd_I:
+    case LRB_SHAPE_VI_Vpd_I:
         return i == 1;
     case LRB_SHAPE_VI_XX:
     case LRB_SHAPE_VI_XXI:
@@ -217,8 +223,9 @@ static void issue(slow_tile *t)
     t->class_cycle[info_of(e)->class_id] = t->cycle;
     t->stats->ops[e->op & LRB_EVENT_ID]++;
     t->stats->memory_operands += e->op & LRB_FORM_MEMORY ? 1 : 0;
+    t->stats->phase_vector_ops[t->phase] += is_vector(e);
     for (int lane = 0; lane < 16; lane++)
-        t->stats->idle_lanes += is_vector(e) && !(e->mask >> lane & 1);
+        t->stats->phase_idle_lanes[t->phase] += is_vector(e) && !(e->mask >> lane & 1);
 }
 
 /* Take in the markers before the next op. */
@@ -229,7 +236,7 @@ static void pass_markers(slow_tile *t)
         t->stats->ops[e->op & LRB_EVENT_ID]++;
         if ((e->op & LRB_EVENT_ID) == LRB_OP_phase)
             t->phase = e->aux < SIM_MAX_PHASES ? e->aux : SIM_MAX_PHASES - 1;
-        else
+        else if ((e->op & LRB_EVENT_ID) == LRB_OP_region)
             t->region = e->aux < SIM_MAX_REGIONS ? e->aux : SIM_MAX_REGIONS;
     }
 }
@@ -253,6 +260,7 @@ static void step(slow_tile *t)
     lrb_cost_class first = info_of(e)->class_id;
     t->stats->cycles++;
     t->stats->phase[t->phase]++;
+    t->stats->op_cycles[e->op & LRB_EVENT_ID]++;
     t->regions[t->region]++;
     if (t->op_count && t->cycle < t->ops[t->op_count - 1].cycle + t->machine->issue_gap) {
         t->stats->gap++;
@@ -265,6 +273,7 @@ static void step(slow_tile *t)
     }
     issue(t);
     t->stats->issued_by_class[first]++;
+    t->stats->op_issues[e->op & LRB_EVENT_ID]++;
     pass_markers(t);
     if (joins(t, first)) {
         issue(t);

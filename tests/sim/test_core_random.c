@@ -79,6 +79,7 @@ static void assert_sums(const sim_machine *machine, const core_pair *w, const si
         assert_true(((const uint64_t *)&s->core)[i] <= s->cycles && ((const uint64_t *)&s->threads)[i] <= s->cycles * machine->threads);
     assert_int_equal(sum(s->phase, SIM_MAX_PHASES), s->cycles);
     assert_int_equal(sum(s->op_cycles, LRB_OP_COUNT), s->cycles);
+    assert_int_equal(sum(s->op_issues, LRB_OP_COUNT), s->core.issued_one + s->core.issued_pair);
     assert_int_equal(sum(s->issued_by_class, LRB_CLASS_COUNT), s->core.issued_one + s->core.issued_pair);
     assert_int_equal(regions, s->cycles);
 }

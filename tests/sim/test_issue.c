@@ -159,7 +159,7 @@ static void compare__mask_needed__six_cycles(void **state)
     assert_int_equal(TIMELINE(machine, test).operand[LRB_CLASS_vector_compare][SIM_CONSUMER_PLAIN], 5);
     TIMELINE(machine, logic);
     TIMELINE(machine, move);
-    assert_int_equal(TIMELINE(machine, write).idle_lanes, 8);
+    assert_int_equal(TIMELINE(machine, write).phase_idle_lanes[0], 8);
     assert_int_equal(TIMELINE(machine, early).operand[LRB_CLASS_vector_compare][SIM_CONSUMER_PLAIN], 1);
     assert_int_equal(TIMELINE(machine, in_time).operand[LRB_CLASS_vector_compare][SIM_CONSUMER_PLAIN], 0);
     sim_machine_destroy(&machine);

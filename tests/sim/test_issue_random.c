@@ -84,9 +84,12 @@ static void print_number(size_t word, uint64_t fast, uint64_t slow)
         {"store_forward", offsetof(sim_issue_stats, store_forward)},
         {"issued_by_class", offsetof(sim_issue_stats, issued_by_class)},
         {"phase", offsetof(sim_issue_stats, phase)},
+        {"phase_vector_ops", offsetof(sim_issue_stats, phase_vector_ops)},
+        {"phase_idle_lanes", offsetof(sim_issue_stats, phase_idle_lanes)},
         {"ops", offsetof(sim_issue_stats, ops)},
+        {"op_issues", offsetof(sim_issue_stats, op_issues)},
+        {"op_cycles", offsetof(sim_issue_stats, op_cycles)},
         {"memory_operands", offsetof(sim_issue_stats, memory_operands)},
-        {"idle_lanes", offsetof(sim_issue_stats, idle_lanes)},
     };
     size_t m = sizeof members / sizeof *members - 1;
     while (members[m].offset > word * sizeof(uint64_t))
@@ -132,8 +135,10 @@ static void assert_sums(const sim_issue_stats *s, uint64_t events)
                                     sum(s->operand[0], (size_t)LRB_CLASS_COUNT * SIM_CONSUMERS));
     assert_int_equal(s->cycles, sum(s->phase, SIM_MAX_PHASES));
     assert_int_equal(issues, sum(s->issued_by_class, LRB_CLASS_COUNT));
+    assert_int_equal(issues, sum(s->op_issues, LRB_OP_COUNT));
+    assert_int_equal(s->cycles, sum(s->op_cycles, LRB_OP_COUNT));
     assert_int_equal(events, sum(s->ops, LRB_OP_COUNT));
-    assert_int_equal(events, issues + s->issued_pair + s->ops[LRB_OP_phase] + s->ops[LRB_OP_region]);
+    assert_int_equal(events, issues + s->issued_pair + s->ops[LRB_OP_phase] + s->ops[LRB_OP_region] + s->ops[LRB_OP_line]);
 }
 
 /* What the ops of one class cost in `count` bounds a tile's cycles from below, but for the last op, and two ops a cycle
@@ -147,7 +152,7 @@ static void assert_bounds(const sim_machine *machine, const sim_issue_stats *s)
         if (sum(ops, LRB_OP_COUNT) && c != LRB_CLASS_marker)
             assert_true(2 * s->cycles + machine->cost[c].throughput > sim_count_half_cycles(machine, ops));
     }
-    assert_true(2 * s->cycles >= sum(s->ops, LRB_OP_COUNT) - s->ops[LRB_OP_phase] - s->ops[LRB_OP_region]);
+    assert_true(2 * s->cycles >= sum(s->ops, LRB_OP_COUNT) - s->ops[LRB_OP_phase] - s->ops[LRB_OP_region] - s->ops[LRB_OP_line]);
 }
 
 /* A few tiles on one machine; returns the number of events. */

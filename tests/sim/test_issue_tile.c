@@ -84,8 +84,8 @@ static void stats__small_tile__all_numbers(void **state)
         {17, OP(rcpres_ps, 0)}, {20, OP_AT(rcpres_ps, LRB_FORM_MEMORY, 0xffff, 64, 0)},
     };
     sim_issue_stats expected = {
-        .cycles = 20, .issued_one = 3, .issued_pair = 2, .gap = 4, .blocked = 8, .phase = {20}, .idle_lanes = 8,
-        .memory_operands = 1,
+        .cycles = 20, .issued_one = 3, .issued_pair = 2, .gap = 4, .blocked = 8, .phase = {20}, .phase_idle_lanes = {8},
+        .phase_vector_ops = {4}, .memory_operands = 1,
     };
     expected.busy[LRB_CLASS_vector_lookup] = 1;
     expected.operand[LRB_CLASS_vector_alu][SIM_CONSUMER_PLAIN] = 2;
@@ -93,12 +93,17 @@ static void stats__small_tile__all_numbers(void **state)
     expected.issued_by_class[LRB_CLASS_scalar_multiply] = 1;
     expected.issued_by_class[LRB_CLASS_vector_lookup] = 2;
     expected.ops[LRB_OP_add_ps] = expected.ops[LRB_OP_rcpres_ps] = 2;
+    expected.op_issues[LRB_OP_add_ps] = expected.op_issues[LRB_OP_rcpres_ps] = 2;
+    expected.op_issues[LRB_OP_imul] = 1;
+    expected.op_cycles[LRB_OP_add_ps] = 5;
+    expected.op_cycles[LRB_OP_imul] = 2;
+    expected.op_cycles[LRB_OP_rcpres_ps] = 13;
     expected.ops[LRB_OP_add] = expected.ops[LRB_OP_load32] = expected.ops[LRB_OP_imul] = 1;
     sim_issue_stats stats = TIMELINE(machine, steps);
     assert_memory_equal(&stats, &expected, sizeof stats);
     sim_issue_stats_add(&stats, &expected);
     assert_int_equal(stats.cycles, 40);
-    assert_int_equal(stats.idle_lanes, 16);
+    assert_int_equal(stats.phase_idle_lanes[0], 16);
     assert_int_equal(stats.operand[LRB_CLASS_vector_alu][SIM_CONSUMER_PLAIN], 4);
     sim_machine_destroy(&machine);
 }
@@ -112,7 +117,7 @@ static void idle_lanes__vector_ops__only(void **state)
         OP_MASKED(add_ps, 0, 0), OP_MASKED(cmplt_ps, 0x7fff, 0), OP_AT(store_ps, 0, 0x0003, 64, 0),
         OP_AT(load_ps, 0, 0x0ff0, 64, 0), OP_MASKED(jcc, 1, 0), OP_MASKED(jmp, 0, 0), OP(kand, 0),
     };
-    assert_int_equal(time_tile(machine, events, 7, NULL).idle_lanes, 16 + 1 + 14 + 8);
+    assert_int_equal(time_tile(machine, events, 7, NULL).phase_idle_lanes[0], 16 + 1 + 14 + 8);
     sim_machine_destroy(&machine);
 }
 

@@ -1,0 +1,88 @@
+/* The kernels fit the machine's registers: no value of a vector or mask register ever has to be spilled, in any phase, on any
+ * path of the box test, with and without culling. (A compiler for one path would spill no less: sim/registers.h.) */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#include "kernels/kernel.h"
+#include "scene/builtin.h"
+#include "sim/registers.h"
+#include "tests/kernels/trace.h"
+
+enum { SIZE = 64 };
+
+static sim_registers_stats analyse(const kernel_info *kernel, const kernel_params *params, const bvh *tree, const scene_camera *camera,
+                                   kernel_counts *n)
+{
+    kernel_job *job = NULL;
+    sim_registers *r = NULL;
+    lrb_ctx *c = NULL;
+    assert_int_equal(kernel_job_create(tree, camera, SIZE, SIZE, params, &job, NULL), BASE_OK);
+    assert_int_equal(sim_registers_create(sim_file_registers, &r, NULL), BASE_OK);
+    assert_int_equal(lrb_ctx_create(sim_registers_events, r, &c, NULL), BASE_OK);
+    for (uint32_t tile = 0; tile < kernel_job_tiles(job); tile++) {
+        kernel->annotated(c, job, tile, n);
+        lrb_ctx_end(c);
+        assert_int_equal(sim_registers_end(r, NULL), BASE_OK);
+    }
+    sim_registers_stats stats = *sim_registers_get(r);
+    lrb_ctx_destroy(&c);
+    sim_registers_destroy(&r);
+    kernel_job_destroy(&job);
+    return stats;
+}
+
+static void check(const kernel_info *kernel, const char *scene_name, const sim_registers_stats *s)
+{
+    for (int phase = 0; phase < KERNEL_PHASE_COUNT; phase++) {
+        assert_true(s->ops[phase] > 0);
+        for (int file = 0; file < SIM_FILES; file++) {
+            const sim_pressure *p = &s->pressure[phase][file];
+            if (p->stores || p->reloads)
+                fail_msg("%s on %s, %s: %llu %s registers needed, %llu spills and %llu reloads", kernel->name, scene_name,
+                         kernel_phase_names[phase], (unsigned long long)p->max, sim_file_names[file], (unsigned long long)p->stores,
+                         (unsigned long long)p->reloads);
+            assert_true(p->max <= (file == SIM_FILE_GENERAL ? 16 : sim_file_registers[file]));
+        }
+    }
+}
+
+static void registers__every_kernel_and_scene__nothing_spilled(void **state)
+{
+    size_t kernels, scenes;
+    const kernel_info *kernel = kernel_list(&kernels);
+    const scene_builtin *builtin = scene_builtin_list(&scenes);
+    kernel_counts n = {{0}};
+    (void)state;
+    for (size_t i = 0; i < scenes; i++) {
+        scene *s = NULL;
+        char spec[128];
+        snprintf(spec, sizeof spec, "builtin:%s", builtin[i].name);
+        assert_int_equal(scene_open(spec, &s, NULL), BASE_OK);
+        for (size_t k = 0; k < kernels; k++) {
+            bvh *tree = trace_tree(s, kernel[k].defaults.max_leaf);
+            for (unsigned cull = 0; cull < 2; cull++) {
+                kernel_params params = kernel[k].defaults;
+                params.cull_backface = cull;
+                sim_registers_stats stats = analyse(&kernel[k], &params, tree, &s->cameras[0], &n);
+                check(&kernel[k], builtin[i].name, &stats);
+            }
+            bvh_destroy(&tree);
+        }
+        scene_destroy(&s);
+    }
+    /* All paths of the box test have been taken. */
+    assert_true(n.n[KERNEL_units_common] > 0 && n.n[KERNEL_units_blend] > 0 && n.n[KERNEL_units_zero] > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(registers__every_kernel_and_scene__nothing_spilled),
+    };
+    return cmocka_run_group_tests_name("registers", tests, NULL, NULL);
+}
