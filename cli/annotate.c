@@ -5,6 +5,7 @@
 
 #include "cli/places.h"
 #include "cli/stats.h"
+#include "reports/accounts.h"
 #include "reports/text.h"
 
 enum { WAIT_SIZE = 64, WAIT_WIDTH = 30 };
@@ -17,7 +18,7 @@ static double percent(uint64_t part, uint64_t whole)
 /* The largest of the waits and its share of the place's cycles: "operand_vector_alu 62 %"; empty if that is below a half percent. */
 static void main_wait(const sim_place *cost, char text[WAIT_SIZE])
 {
-    json_t *stalls = stats_stalls_json(&cost->cycles), *value;
+    json_t *stalls = report_stalls_json(&cost->cycles), *value;
     const char *name, *largest = "";
     json_int_t most = 0;
     json_object_foreach(stalls, name, value)

@@ -51,7 +51,7 @@ base_status listing_write(const run_result *result, FILE *out, base_error *err)
 {
     (void)err;
     char title[STATS_TITLE_SIZE];
-    const run_op_totals ops = run_totals(result);
+    const report_op_totals ops = run_totals(result);
     const sim_cycles cycles = stats_cycles(result);
     const place_groups groups = place_groups_of(&cycles);
     stats_title(result, title, sizeof title);

@@ -48,82 +48,10 @@ sim_cycles stats_cycles(const run_result *r)
     return cycles;
 }
 
-static void set_if_any(json_t *object, const char *prefix, const char *name, uint64_t value)
-{
-    char key[64];
-    snprintf(key, sizeof key, "%s%s", prefix, name);
-    if (value)
-        json_object_set_new(object, key, integer(value));
-}
-
-/* Cycles waited for results of one class, however they were to be read. */
-static uint64_t operand_wait(const sim_cycles *s, int class_id)
-{
-    uint64_t sum = 0;
-    for (int kind = 0; kind < SIM_CONSUMERS; kind++)
-        sum += s->operand[class_id][kind];
-    return sum;
-}
-
-json_t *stats_stalls_json(const sim_cycles *s)
-{
-    json_t *object = json_object();
-    json_object_set_new(object, "issued_one", integer(s->issued_one));
-    json_object_set_new(object, "issued_pair", integer(s->issued_pair));
-    for (int k = 0; k < LRB_CLASS_COUNT; k++)
-        set_if_any(object, "operand_", lrb_cost_classes[k].name, operand_wait(s, k));
-    set_if_any(object, "", "l2", s->l2);
-    set_if_any(object, "", "memory", s->memory);
-    set_if_any(object, "", "store_forward", s->store_forward);
-    for (int k = 0; k < LRB_CLASS_COUNT; k++)
-        set_if_any(object, "busy_", lrb_cost_classes[k].name, s->busy[k]);
-    set_if_any(object, "", "blocked", s->blocked);
-    set_if_any(object, "", "delay", s->delay);
-    set_if_any(object, "", "mispredict", s->mispredict);
-    set_if_any(object, "", "btb_miss", s->btb_miss);
-    set_if_any(object, "", "misses_under_way", s->misses);
-    set_if_any(object, "", "prefetches_under_way", s->prefetches);
-    set_if_any(object, "", "gap", s->gap);
-    set_if_any(object, "", "other_thread", s->other_thread);
-    set_if_any(object, "", "no_work", s->no_work);
-    return object;
-}
-
-/* The latency of a level of memory has one field. */
-static void charge_plain_fields(const sim_cycles *s, uint64_t cycles[SIM_FIELDS])
-{
-    cycles[sim_class_field(LRB_CLASS_vector_store, SIM_KEY_latency)] += s->store_forward;
-    cycles[sim_class_field(LRB_CLASS_scalar_multiply, SIM_KEY_blocking)] += s->blocked;
-    cycles[sim_class_field(LRB_CLASS_delay, SIM_KEY_throughput)] += s->delay;
-    cycles[SIM_FIELD_machine_issue_gap] += s->gap;
-    cycles[SIM_FIELD_l2_latency] += s->l2;
-    cycles[SIM_FIELD_memory_latency] += s->memory;
-    cycles[SIM_FIELD_branch_mispredict_penalty] += s->mispredict;
-    cycles[SIM_FIELD_branch_btb_miss_penalty] += s->btb_miss;
-    cycles[SIM_FIELD_memory_demand_misses_per_thread] += s->misses;
-    cycles[SIM_FIELD_memory_prefetches_per_core] += s->prefetches;
-}
-
 void stats_cycles_by_field(const run_result *r, uint64_t cycles[SIM_FIELDS])
 {
-    static const sim_class_key latency_key[SIM_CONSUMERS] = {
-        [SIM_CONSUMER_PLAIN] = SIM_KEY_latency,
-        [SIM_CONSUMER_SHUFFLE] = SIM_KEY_latency_to_shuffle,
-        [SIM_CONSUMER_BRANCH] = SIM_KEY_latency_to_branch,
-        [SIM_CONSUMER_ADDRESS] = SIM_KEY_latency_to_address,
-    };
     const sim_cycles s = stats_cycles(r);
-    const uint64_t *issued = r->options.model == RUN_CORE ? r->core.issued_by_class : r->issue.issued_by_class;
-    memset(cycles, 0, SIM_FIELDS * sizeof *cycles);
-    for (int i = 0; i < LRB_CLASS_COUNT; i++) {
-        lrb_cost_class k = (lrb_cost_class)i;
-        cycles[sim_class_field(k, SIM_KEY_throughput)] += issued[k] + s.busy[k];
-        for (int kind = 0; kind < SIM_CONSUMERS; kind++) {
-            size_t field = sim_class_field(k, latency_key[kind]);
-            cycles[r->machine->values[field].given ? field : sim_class_field(k, SIM_KEY_latency)] += s.operand[k][kind];
-        }
-    }
-    charge_plain_fields(&s, cycles);
+    report_cycles_by_field(r->machine, &s, r->options.model == RUN_CORE ? r->core.issued_by_class : r->issue.issued_by_class, cycles);
 }
 
 void stats_basis_shares(const run_result *r, double share[SIM_BASIS_COUNT])
@@ -220,7 +148,7 @@ static json_t *cycles_json(const run_result *r)
     if (has_stalls(r)) {
         const sim_cycles cycles = stats_cycles(r);
         json_object_set_new(object, "by_phase", phases_json(r));
-        json_object_set_new(object, "by_stall", stats_stalls_json(&cycles));
+        json_object_set_new(object, "by_stall", report_stalls_json(&cycles));
         json_object_set_new(object, "by_basis", basis_json(r));
         json_object_set_new(object, "by_op", op_cycles_json(r));
         json_object_set_new(object, "lane_utilisation", lanes_json(r));
@@ -228,7 +156,7 @@ static json_t *cycles_json(const run_result *r)
     if (r->options.model == RUN_CORE) {
         json_object_set_new(object, "cores", integer(r->machine->cores));
         json_object_set_new(object, "threads", integer(r->machine->threads));
-        json_object_set_new(object, "threads_by_stall", stats_stalls_json(&r->core.threads));
+        json_object_set_new(object, "threads_by_stall", report_stalls_json(&r->core.threads));
         json_object_set_new(object, "bounds", bounds_json(r));
         json_object_set_new(object, "memory", memory_json(r));
         json_object_set_new(object, "branches", branches_json(r));
@@ -377,11 +305,11 @@ report_table *stats_table(const run_result *r, double load_seconds)
     if (has_stalls(r)) {
         const sim_cycles cycles = stats_cycles(r);
         add_object(t, r, "cycles by phase", phases_json(r));
-        add_object(t, r, "cycles by stall", stats_stalls_json(&cycles));
+        add_object(t, r, "cycles by stall", report_stalls_json(&cycles));
         add_object(t, r, "cycles by op, issue and waiting", op_cycles_json(r));
     }
     if (r->options.model == RUN_CORE) {
-        add_object(t, r, "cycles of the threads by stall", stats_stalls_json(&r->core.threads));
+        add_object(t, r, "cycles of the threads by stall", report_stalls_json(&r->core.threads));
         add_object(t, r, "lower bounds of the cycles", bounds_json(r));
         add_object(t, r, "memory", memory_json(r));
         add_object(t, r, "branches", branches_json(r));

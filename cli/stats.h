@@ -28,9 +28,6 @@ void stats_title(const run_result *result, char *title, size_t size);
 /** Where the cycles of the run went; of RUN_ISSUE or RUN_CORE. */
 sim_cycles stats_cycles(const run_result *result);
 
-/** The buckets by name, those that are 0 left out but for the issues'; a new reference. */
-json_t *stats_stalls_json(const sim_cycles *cycles);
-
 /** Cycles of the run by the field of the machine that they are charged to, issues of a class to its throughput; of RUN_ISSUE or RUN_CORE. */
 void stats_cycles_by_field(const run_result *result, uint64_t cycles[SIM_FIELDS]);
 

@@ -96,7 +96,8 @@ void session_sums_finish(session_sums *sums, session_model model, const sim_mach
     if (model == SESSION_ISSUE) {
         memcpy(sums->counts.ops, sums->issue.ops, sizeof sums->counts.ops);
         sums->counts.memory_operands = sums->issue.memory_operands;
-        sums->counts.idle_lanes = sums->issue.idle_lanes;
+        for (int phase = 0; phase < SIM_MAX_PHASES; phase++)
+            sums->counts.idle_lanes += sums->issue.phase_idle_lanes[phase];
         sums->cycles = sums->issue.cycles;
     } else {
         sums->cycles = (sim_count_half_cycles(machine, sums->counts.ops) + 1) / 2;
