@@ -137,8 +137,8 @@ static void lines__every_op__the_ops_of_record_and_markers(void **state)
     (void)state;
     outcome *record = run(program_run_record, true), *lines = run(program_run_annotated, true);
     assert_true(same(record, lines));
-    assert_true(record->ops[LRB_OP_line] == 0 && lines->ops[LRB_OP_line] > STEPS / 2);
-    lines->ops[LRB_OP_line] = 0;
+    assert_true(lines->ops[LRB_OP_line] > record->ops[LRB_OP_line] + STEPS / 2); /* the program has markers of its own */
+    lines->ops[LRB_OP_line] = record->ops[LRB_OP_line];
     assert_memory_equal(record->ops, lines->ops, sizeof record->ops);
     assert_true(lines->lined && lines->without_line == 0);
     free(record), free(lines);
