@@ -7,6 +7,7 @@
 #include "cli/clock.h"
 #include "cli/progress.h"
 #include "cli/run_core.h"
+#include "cli/run_sample.h"
 #include "cli/run_trace.h"
 #include "lrbni/base/parallel.h"
 #include "sim/count.h"
@@ -250,6 +251,23 @@ static base_status trace_tiles(run_result *result, run_trace *recorded, progress
     return status;
 }
 
+/* Every tile in `count`, then some in `core`, or all of them if some are not enough. */
+static base_status trace_sampled(run_result *result, const recorder_input *input, progress *bar, base_error *err)
+{
+    bool enough = false;
+    result->options.model = RUN_COUNT;
+    base_status status = trace_tiles(result, input->trace, bar, err);
+    result->options.model = RUN_CORE;
+    if (status == BASE_OK)
+        status = run_sample(result, &enough, err);
+    if (status != BASE_OK || enough)
+        return status;
+    result->counts = (kernel_counts){{0}};
+    result->memory_operands = result->idle_lanes = result->cycles = 0;
+    result->estimate = (run_estimate){.tiles_simulated = input->tiles, .tiles = input->tiles};
+    return run_core(result, input, bar, err);
+}
+
 static base_status trace(run_result *result, base_error *err)
 {
     const run_options *o = &result->options;
@@ -269,7 +287,9 @@ static base_status trace(run_result *result, base_error *err)
         double start = clock_seconds();
         recorder_input input = {.tiles = tiles, .kernel = o->kernel, .job = result->job, .tile_counts = result->tile_counts,
                                 .trace = &recorded, .annotated = o->profile || o->registers, .registers = o->registers};
-        status = o->model == RUN_CORE ? run_core(result, &input, &bar, err) : trace_tiles(result, &recorded, &bar, err);
+        status = o->model != RUN_CORE ? trace_tiles(result, &recorded, &bar, err)
+                 : o->error > 0       ? trace_sampled(result, &input, &bar, err)
+                                      : run_core(result, &input, &bar, err);
         result->kernel_seconds = clock_seconds() - start;
         progress_end(&bar);
     }

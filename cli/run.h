@@ -29,12 +29,20 @@ typedef struct run_options {
     const char *camera; /* NULL: the first */
     unsigned width, height;
     run_model model;
+    double error;          /* RUN_CORE: relative half-width of the 95% interval of the cycles that is good enough; 0: all tiles */
+    uint64_t seed;         /* of the choice of tiles */
     unsigned jobs;
     bool keep_tile_counts; /* fill tile_counts of the result */
     bool progress;         /* a bar on stderr */
     const char *trace;     /* file to record the events to, or NULL */
     bool profile, registers; /* fill these of the result: the annotated kernel, which must be there, is run. RUN_ISSUE and RUN_CORE, without a trace */
 } run_options;
+
+/* How well a sampled run knows its cycles. */
+typedef struct run_estimate {
+    double half_width_95; /* relative; 0: exact */
+    size_t tiles_simulated, tiles; /* 0, 0: not sampled */
+} run_estimate;
 
 /* Everything that a run has found, or a replay of its trace. Owns all but the scene and the machine. */
 typedef struct run_result {
@@ -53,6 +61,7 @@ typedef struct run_result {
     sim_issue_stats issue; /* RUN_ISSUE */
     sim_core_stats core;   /* RUN_CORE: summed over the simulated cores */
     sim_chains chains;     /* RUN_CORE: of the tiles */
+    run_estimate estimate; /* RUN_CORE with options.error above 0: cycles and core are estimates */
     uint64_t cycles;       /* all models but RUN_NATIVE; RUN_CORE: of the slowest core */
     double *region_cycles; /* all models but RUN_NATIVE: by tile, SIM_MAX_REGIONS + 1 each: blocks, then the whole tile */
     kernel_counts *tile_counts; /* by tile, or NULL */

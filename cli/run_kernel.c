@@ -31,7 +31,7 @@ static const struct argp_option option_table[] = {
     {"machine", KEY_MACHINE, "M", 0, "a machine (see lanetrace machines), or a description's path; default larrabee", 2},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a field of the machine; repeatable", 2},
     {"param", KEY_PARAM, "KEY=VALUE", 0, "override a parameter of the kernel; repeatable", 2},
-    {"error", KEY_ERROR, "E", 0, "sampled simulation: 0, all tiles, is all there is in this version", 2},
+    {"error", KEY_ERROR, "E", 0, "simulate in core only as many tiles as bound the relative error of the cycles by E (95%); default 0: all", 2},
     {"jobs", KEY_JOBS, "N", 0, "host threads; results do not depend on it; default: all", 2},
     {"stats", KEY_STATS, "FILE", 0, "JSON statistics, - for stdout; default: a table on stdout", 3},
     {"stat", KEY_STAT, "FILE", OPTION_ARG_OPTIONAL, "a listing in the manner of perf stat; default: on stdout", 3},
@@ -120,7 +120,6 @@ static base_status find_counter(const kernel_info *kernel, const char *name, ker
 static base_status plan_numbers(const arguments *a, plan *p, base_error *err)
 {
     unsigned long number;
-    double error;
     base_status status = BASE_OK;
     p->light_scale = 1;
     p->run.width = p->run.height = 1024;
@@ -131,11 +130,8 @@ static base_status plan_numbers(const arguments *a, plan *p, base_error *err)
         status = command_number("--samples", a->samples, 1, 1 << 16, &number, err);
     if (status == BASE_OK && a->light_scale)
         status = command_real("--light-scale", a->light_scale, 0, 1e6, &p->light_scale, err);
-    if (status == BASE_OK && a->error) {
-        status = command_real("--error", a->error, 0, 1, &error, err);
-        if (status == BASE_OK && error > 0)
-            status = base_fail(err, BASE_ERR_UNSUPPORTED, "--error", "sampled simulation is not in this version");
-    }
+    if (status == BASE_OK && a->error)
+        status = command_real("--error", a->error, 0, 1, &p->run.error, err);
     if (status == BASE_OK && a->jobs) {
         status = command_number("--jobs", a->jobs, 1, 1024, &number, err);
         p->run.jobs = (unsigned)number;
@@ -164,6 +160,10 @@ static base_status plan_analyses(const arguments *a, plan *p, base_error *err)
                          run_model_names[p->run.model]);
     if (option && a->trace)
         return base_fail(err, BASE_ERR_USAGE, option, "not together with --trace, which records the plain kernel");
+    if (p->run.error > 0 && p->run.model != RUN_CORE)
+        return base_fail(err, BASE_ERR_USAGE, "--error", "samples tiles of model core, not of %s", run_model_names[p->run.model]);
+    if (p->run.error > 0 && (option || a->trace))
+        return base_fail(err, BASE_ERR_USAGE, option ? option : "--trace", "not together with --error, which simulates a few tiles only");
     if (option && !p->run.kernel->annotated)
         return base_fail(err, BASE_ERR_UNSUPPORTED, option, "kernel %s was not built with annotations", p->run.kernel->name);
     p->run.profile = a->annotate || a->callgrind;

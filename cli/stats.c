@@ -138,6 +138,16 @@ static json_t *bounds_json(const run_result *r)
     return object;
 }
 
+/* How well a sampled run knows its cycles. */
+static json_t *estimate_json(const run_result *r)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "rel_half_width_95", report_json_real(r->estimate.half_width_95, RATIO_DECIMALS));
+    json_object_set_new(object, "tiles_simulated", integer(r->estimate.tiles_simulated));
+    json_object_set_new(object, "tiles_total", integer(r->estimate.tiles));
+    return object;
+}
+
 static bool has_stalls(const run_result *r) { return r->options.model == RUN_ISSUE || r->options.model == RUN_CORE; }
 
 static json_t *cycles_json(const run_result *r)
@@ -157,7 +167,10 @@ static json_t *cycles_json(const run_result *r)
         json_object_set_new(object, "cores", integer(r->machine->cores));
         json_object_set_new(object, "threads", integer(r->machine->threads));
         json_object_set_new(object, "threads_by_stall", report_stalls_json(&r->core.threads));
-        json_object_set_new(object, "bounds", bounds_json(r));
+        if (r->estimate.tiles)
+            json_object_set_new(object, "estimate", estimate_json(r));
+        if (r->estimate.tiles_simulated == r->estimate.tiles) /* bounds are those of all tiles */
+            json_object_set_new(object, "bounds", bounds_json(r));
         json_object_set_new(object, "memory", memory_json(r));
         json_object_set_new(object, "branches", branches_json(r));
     }
@@ -254,6 +267,11 @@ static void add_object(report_table *t, const run_result *r, const char *group, 
 static void add_notes(report_table *t, const run_result *r, double load_seconds)
 {
     char text[256];
+    if (r->estimate.tiles) {
+        snprintf(text, sizeof text, "Cycles are an estimate from %zu of %zu tiles: within %.2f %% of the truth, with 95 %% confidence.",
+                 r->estimate.tiles_simulated, r->estimate.tiles, 100 * r->estimate.half_width_95);
+        report_table_add_note(t, text);
+    }
     if (r->options.model != RUN_NATIVE) {
         size_t length = (size_t)snprintf(text, sizeof text, "Lane utilisation of vector ops: %.1f %%",
                                          100 * run_totals(r).lane_utilisation);
@@ -310,7 +328,8 @@ report_table *stats_table(const run_result *r, double load_seconds)
     }
     if (r->options.model == RUN_CORE) {
         add_object(t, r, "cycles of the threads by stall", report_stalls_json(&r->core.threads));
-        add_object(t, r, "lower bounds of the cycles", bounds_json(r));
+        if (r->estimate.tiles_simulated == r->estimate.tiles)
+            add_object(t, r, "lower bounds of the cycles", bounds_json(r));
         add_object(t, r, "memory", memory_json(r));
         add_object(t, r, "branches", branches_json(r));
     }

@@ -79,6 +79,9 @@ base_status sim_core_run(sim_core *core, const sim_core_feed *feed, base_error *
 /** The sums over all runs. */
 sim_core_stats sim_core_get(const sim_core *core);
 
+/** Cycle of the core in which it issued last, counted through all runs; for feeds, which are asked in that cycle. */
+uint64_t sim_core_cycle(const sim_core *core);
+
 /** Put the cycles up to `cycles` after a core ran dry into its stats, and those of its threads: other cores still worked. */
 void sim_core_stats_idle(sim_core_stats *stats, const sim_machine *machine, uint64_t cycles);
 

@@ -19,6 +19,11 @@ static void collect_issues(const sim_core *s, sim_core_stats *to)
 
 /* The gaps of a thread lie between its issues; what of all cycles is in no other bucket was the core's gaps, and the
    turns of other threads. */
+uint64_t sim_core_cycle(const sim_core *s)
+{
+    return s->now;
+}
+
 sim_core_stats sim_core_get(const sim_core *s)
 {
     sim_core_stats stats = s->stats;

@@ -65,8 +65,10 @@ def usage__wrong_words__one_line_and_exit_2(folder):
     fails(['machines', 'pentium'], 'pentium')
 
 
-def usage__features_of_later_versions__said_so(folder):
-    fails(['run-kernel', 'mft-primary', *SMALL, '--error', '0.1'], 'not in this version')
+def usage__error__for_the_core_model_alone(folder):
+    for words in (['--model', 'issue'], ['--set', 'cores=2'], ['--trace', folder + '/t.ltr'], ['--annotate=' + folder + '/a']):
+        fails(['run-kernel', 'mft-primary', *SMALL, '--error', '0.1', *words], '--error')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--error', '1.5'], '--error')
 
 
 def scene_file__bad__one_line_names_the_file(folder):
@@ -162,6 +164,29 @@ def stats__core__buckets_sum_to_total(folder):
         assert sum(cycles['threads_by_stall'].values()) == total * cores * threads
         idle = cycles['by_stall'].get('no_work', 0)
         assert sum(cycles['by_phase'].values()) == sum(cycles['by_op'].values()) == total * cores - idle
+
+
+def stats__error__an_estimate_that_says_how_good_it_is(folder):
+    options = ['--scene', 'builtin:rooms-804', '--size', '384x384']
+    for kernel in ('packet16-primary', 'mft-primary'):
+        full = stats_of(kernel, *options)
+        one, two = (stats_of(kernel, *options, '--error', '0.08', '--jobs', jobs) for jobs in '12')
+        assert all(one[key] == two[key] for key in ('counts', 'ops', 'cycles'))
+        assert one['counts'] == full['counts'] and one['ops'] == full['ops']
+        cycles, estimate = one['cycles'], one['cycles']['estimate']
+        assert 0 < estimate['rel_half_width_95'] <= 0.08 and 0 < estimate['tiles_simulated'] < estimate['tiles_total'] == 576
+        assert abs(cycles['total'] / full['cycles']['total'] - 1) < 2 * estimate['rel_half_width_95']
+        total = cycles['total']
+        assert sum(cycles['by_stall'].values()) == sum(cycles['by_phase'].values()) == sum(cycles['by_op'].values()) == total
+        assert sum(cycles['threads_by_stall'].values()) == cycles['threads'] * total
+        assert 'bounds' in full['cycles'] and 'bounds' not in cycles
+
+
+def stats__error__too_few_tiles_to_sample__all_of_them(folder):
+    full, small = stats_of('mft-primary', *SMALL), stats_of('mft-primary', *SMALL, '--error', '0.01')
+    estimate = small['cycles'].pop('estimate')
+    assert estimate == {'rel_half_width_95': 0, 'tiles_simulated': 9, 'tiles_total': 9}
+    assert all(small[key] == full[key] for key in ('counts', 'ops', 'cycles'))
 
 
 def stats__machine_overrides__change_cycles_and_hash_only(folder):
