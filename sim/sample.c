@@ -182,7 +182,7 @@ sim_estimate sim_sample_estimate(const sim_sample *s)
 
 double sim_student_95(size_t freedom)
 {
-    static const double exact[] = {INFINITY, 12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622};
+    static const double exact[] = {HUGE_VAL, 12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622};
     const double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, f = (double)freedom;
     if (freedom < sizeof exact / sizeof exact[0])
         return exact[freedom];

@@ -98,7 +98,7 @@ static void strata__by_size__about_equal_sums(void **state)
     sim_sample *s = make_sample(&p, UNITS, 5);
     double low[SIM_SAMPLE_STRATA], high[SIM_SAMPLE_STRATA] = {0};
     for (int h = 0; h < SIM_SAMPLE_STRATA; h++)
-        low[h] = INFINITY;
+        low[h] = HUGE_VAL;
     size_t drawn[SIM_SAMPLE_STRATA];
     for (int round = 0; round < 20; round++) {
         assert_int_equal(sim_sample_draw(s, drawn), SIM_SAMPLE_STRATA);
