@@ -9,12 +9,19 @@
 
 #include "lrbni/ops/places.h"
 
-/* The lanes of the stream at `start` that the op moves. */
+/* Which lanes of the stream an op moves. */
 typedef enum lrb_stream_part { LRB_STREAM_LOW, LRB_STREAM_HIGH, LRB_STREAM_WHOLE } lrb_stream_part;
 
-LRB_INLINE uint32_t lrb_stream_lanes(const lrb_places *p, uint32_t k, uint32_t start, lrb_stream_part part)
+/* The elements' places from the op's address, which for a high part is 64 bytes behind the stream's start. */
+LRB_INLINE lrb_places lrb_stream_places(unsigned bytes, uint32_t k, lrb_stream_part part)
 {
-    return part == LRB_STREAM_WHOLE ? k : lrb_lanes_in_line(p, k, start, lrb_line_of(start) + (part == LRB_STREAM_HIGH));
+    return lrb_places_packed(bytes, k, part == LRB_STREAM_HIGH ? -64 : 0);
+}
+
+/* Either part moves what lies in the line of its own address. */
+LRB_INLINE uint32_t lrb_stream_lanes(const lrb_places *p, uint32_t k, uint32_t address, lrb_stream_part part)
+{
+    return part == LRB_STREAM_WHOLE ? k : lrb_lanes_in_line(p, k, address, lrb_line_of(address));
 }
 
 /* Where a high part touches memory: the beginning of the line that its address lies in. */
@@ -28,11 +35,11 @@ LRB_INLINE uint32_t lrb_stream_address(uint32_t address, lrb_stream_part part)
     LRB_INLINE LRB_VECTOR_##suffix lrb_unpack_##suffix(lrb_ctx *c, lrb_op_id op, lrb_stream_part part, LRB_VECTOR_##suffix old, \
                                                        lrb_k16 k, lrb_mem m, lrb_up_##suffix up)          \
     {                                                                                                     \
-        const unsigned bytes = lrb_up_##suffix##_bytes(up), back = part == LRB_STREAM_HIGH ? 64 : 0;      \
+        const unsigned bytes = lrb_up_##suffix##_bytes(up);                                               \
         LRB_ASSERT_ALIGNED(m, bytes);                                                                     \
-        const lrb_places p = lrb_places_packed(bytes, k.bits & LRB_LANES_##suffix);                       \
-        const uint32_t lanes = lrb_stream_lanes(&p, k.bits & LRB_LANES_##suffix, m.address - back, part); \
-        const lrb_elements e = lrb_read_places(&p, lanes, m.host - back, bytes);                          \
+        const lrb_places p = lrb_stream_places(bytes, k.bits & LRB_LANES_##suffix, part);                 \
+        const uint32_t lanes = lrb_stream_lanes(&p, k.bits & LRB_LANES_##suffix, m.address, part);        \
+        const lrb_elements e = lrb_read_places(&p, lanes, m.host, bytes);                                 \
         LRB_VECTOR_##suffix d = {.lanes = lanes_merge_##suffix(lanes, old.lanes, lanes_up_##suffix(e.bytes, up))}; \
         LRB_SET_FROM(d, LRB_EMIT_MASKED_##suffix(c, op, lrb_form_of_line(lanes), lrb_moved(k, lanes), LRB_BASE_FROM(m), \
                                                  LRB_INDEX_FROM(m), LRB_FROM(old), lrb_stream_address(m.address, part))); \
@@ -41,12 +48,12 @@ LRB_INLINE uint32_t lrb_stream_address(uint32_t address, lrb_stream_part part)
     LRB_INLINE void lrb_pack_##suffix(lrb_ctx *c, lrb_op_id op, lrb_stream_part part, lrb_mem m, lrb_k16 k, \
                                       LRB_VECTOR_##suffix a, lrb_down_##suffix down)                      \
     {                                                                                                     \
-        const unsigned bytes = lrb_down_##suffix##_bytes(down), back = part == LRB_STREAM_HIGH ? 64 : 0;  \
+        const unsigned bytes = lrb_down_##suffix##_bytes(down);                                           \
         LRB_ASSERT_ALIGNED(m, bytes);                                                                     \
-        const lrb_places p = lrb_places_packed(bytes, k.bits & LRB_LANES_##suffix);                       \
-        const uint32_t lanes = lrb_stream_lanes(&p, k.bits & LRB_LANES_##suffix, m.address - back, part); \
+        const lrb_places p = lrb_stream_places(bytes, k.bits & LRB_LANES_##suffix, part);                 \
+        const uint32_t lanes = lrb_stream_lanes(&p, k.bits & LRB_LANES_##suffix, m.address, part);        \
         const lrb_elements e = lrb_down_elements_##suffix(c, a.lanes, down);                              \
-        lrb_write_places(&p, lanes, m.host - back, bytes, &e);                                            \
+        lrb_write_places(&p, lanes, m.host, bytes, &e);                                                   \
         LRB_EMIT_MASKED_##suffix(c, op, lrb_form_of_line(lanes), lrb_moved(k, lanes), LRB_BASE_FROM(m), LRB_INDEX_FROM(m), \
                                  LRB_FROM(a), lrb_stream_address(m.address, part));                       \
     }

@@ -24,11 +24,10 @@ LRB_INLINE lrb_places lrb_places_repeated(unsigned bytes, unsigned period)
     return p;
 }
 
-/* A stream: one element after the other for the lanes whose bit is set. */
-LRB_INLINE lrb_places lrb_places_packed(unsigned bytes, uint32_t k)
+/* A stream from `next` on: one element after the other for the lanes whose bit is set. */
+LRB_INLINE lrb_places lrb_places_packed(unsigned bytes, uint32_t k, int64_t next)
 {
     lrb_places p;
-    int64_t next = 0;
     for (unsigned i = 0; i < 16; i++) {
         p.at[i] = next;
         next += k >> i & 1 ? bytes : 0;
