@@ -81,7 +81,8 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define S3D s3_pd(m, BD)
 #define S3Q s3_pq(m, lrb_castps_pq(B))
 
-static const lrb_adjust adjusts[] = {LRB_ADJUST_NONE, LRB_ADJUST_4, LRB_ADJUST_5, LRB_ADJUST_8, LRB_ADJUST_16, LRB_ADJUST_24, LRB_ADJUST_31, LRB_ADJUST_32};
+static const lrb_adjust adjusts[] = {LRB_ADJUST_NONE, LRB_ADJUST_4, LRB_ADJUST_5, LRB_ADJUST_8,
+                                     LRB_ADJUST_16, LRB_ADJUST_24, LRB_ADJUST_31, LRB_ADJUST_32};
 
 /* Whether a conversion of half a vector reads memory; the high half is a register's. */
 static bool half(const machine *m, lrb_op_id op)
