@@ -19,6 +19,7 @@ FRAGMENTS = {
     "lrbni/host/float_memory.h": "included by each back end below the functions that it calls",
     "lrbni/host/double_memory.h": "the same",
     "lrbni/host/common/each_lane.h": "the same",
+    "lrbni/host/common/arith.h": "the same",
     "tests/scene/near.h": "to be included after cmocka.h, as it says",
 }
 
