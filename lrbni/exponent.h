@@ -67,7 +67,8 @@ static inline double lrb_f64_getmant(double x, lrb_mantissa interval, lrb_mantis
         int e = lrb_exponent_of(x);
         double tiny = fabs(x) < 0x1p-1022 ? 0x1p54 : 1.0;
         m = lrb_bits_double((lrb_double_bits(x * tiny) & UINT64_C(0x000fffffffffffff)) | UINT64_C(0x3ff0000000000000));
-        if (interval == LRB_MANTISSA_P5_1 || (interval == LRB_MANTISSA_P5_2 && e & 1) || (interval == LRB_MANTISSA_P75_1P5 && m >= 1.5))
+        if (interval == LRB_MANTISSA_P5_1 || (interval == LRB_MANTISSA_P5_2 && e & 1) ||
+            (interval == LRB_MANTISSA_P75_1P5 && m >= 1.5))
             m *= 0.5;
     }
     return sign == LRB_SIGN_PLUS ? m : copysign(m, x);

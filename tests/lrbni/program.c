@@ -91,7 +91,8 @@ static __attribute__((noinline)) lrb_s3f s3_groups(const machine *m, lrb_v16f b)
 #define S3I_WHOLE (FORM & 1 ? lrb_full_pi(place(m, 64, 64)) : lrb_reg_pi(BI))
 #define S3I_GROUPS (FORM & 2 ? lrb_4to16_pi(place(m, 16, 16)) : S3I_WHOLE)
 
-static const lrb_adjust adjusts[] = {LRB_ADJUST_NONE, LRB_ADJUST_4, LRB_ADJUST_5, LRB_ADJUST_8, LRB_ADJUST_16, LRB_ADJUST_24, LRB_ADJUST_31, LRB_ADJUST_32};
+static const lrb_adjust adjusts[] = {LRB_ADJUST_NONE, LRB_ADJUST_4, LRB_ADJUST_5, LRB_ADJUST_8,
+                                     LRB_ADJUST_16, LRB_ADJUST_24, LRB_ADJUST_31, LRB_ADJUST_32};
 
 /* Whether a conversion of half a vector reads memory; the high half is a register's. */
 static bool half(const machine *m, lrb_op_id op)

@@ -262,7 +262,10 @@ static void complete(row *r, lrb_ctx *c)
     else if (strcmp(end, "_NS") == 0)
         r->kind = MANTISSA;
     else if (strcmp(end, "_I") == 0)
-        r->kind = strstr(shape, "pd_I") ? MODE : r->op == LRB_OP_fixup_ps ? TABLE : r->op == LRB_OP_cvtinsps2u10 ? U10_FIELD : F11_FIELD;
+        r->kind = strstr(shape, "pd_I")           ? MODE
+                  : r->op == LRB_OP_fixup_ps       ? TABLE
+                  : r->op == LRB_OP_cvtinsps2u10   ? U10_FIELD
+                                                   : F11_FIELD;
 }
 
 int main(void)

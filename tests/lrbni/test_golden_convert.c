@@ -77,7 +77,10 @@ static void case24__ps2pi_adjusted__scaled_first_then_rounded(void **state)
 
 static void case25__ps2pu__saturates(void **state)
 {
-    static const struct { float x; uint32_t expected; } cases[] = {{-1.0f, 0}, {-0.5f, 0}, {4294967296.0f, UINT32_MAX}, {3e9f, 3000000000u}};
+    static const struct {
+        float x;
+        uint32_t expected;
+    } cases[] = {{-1.0f, 0}, {-0.5f, 0}, {4294967296.0f, UINT32_MAX}, {3e9f, 3000000000u}};
     for (unsigned i = 0; i < sizeof cases / sizeof cases[0]; i++)
         for (int mode = LRB_RN; mode <= LRB_RZ; mode++)
             assert_int_equal(pi(lrb_cvtps2pu(*state, all_ps(lrb_float_bits(cases[i].x)), (lrb_rounding)mode, LRB_ADJUST_NONE)),
