@@ -156,7 +156,7 @@ static void every_intrinsic__against_its_ops__same_bits_and_events(void **state)
     for (int f = 0; f < FAMILIES; f++)
         for (const call_pair *call = families[f]; call->name; call++, calls++)
             check_call(call, s, segment, direct);
-    print_message("%d calls\n", calls);
+    print_message("# %d calls\n", calls);
     lrb_ctx_destroy(&direct);
     lanetrace_close(&s);
 }
