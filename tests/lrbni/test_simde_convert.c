@@ -1,6 +1,7 @@
 /* Conversions and the like against SIMDe (simde_convert.def): ten million and more random lanes for each, with SIMDe in plain C
  * and with this CPU's instructions. Where both results of a conversion of floats are NaN they count as equal: SIMDe's plain C
- * leaves the payload to the compiler.
+ * leaves the payload to the compiler. So do zeros of either sign where SIMDe rounds in plain C: clang makes code of it that loses
+ * the sign, which golden case 27 and the instructions keep.
  */
 #include "tests/lrbni/case.h"
 #include "tests/lrbni/simde_convert.h"
@@ -66,13 +67,20 @@ static bool is_nan(bool wide, uint64_t bits)
     return wide ? (bits & INT64_MAX) > 0x7ff0000000000000 : (bits & INT32_MAX) > 0x7f800000;
 }
 
-static void compare(const row *r, const uint32_t b[16], const uint32_t got[16], const uint32_t theirs[16])
+static bool is_zero(bool wide, uint64_t bits)
+{
+    return (bits & (wide ? INT64_MAX : INT32_MAX)) == 0;
+}
+
+static void compare(const row *r, const uint32_t b[16], const uint32_t got[16], const uint32_t theirs[16], bool any_zero)
 {
     if (memcmp(got, theirs, 64) == 0)
         return;
     for (int i = 0; i < case_lanes(r->doubles); i++) {
         uint64_t ours = case_get(got, r->doubles, i), simde = case_get(theirs, r->doubles, i);
         if (ours == simde || (r->but == OVERFLOW ? overflows(r, b, i) : is_nan(r->doubles, ours) && is_nan(r->doubles, simde)))
+            continue;
+        if (any_zero && is_zero(r->doubles, ours) && is_zero(r->doubles, simde))
             continue;
         fail_msg("%s lane %d: b %08x %08x: got %llx, SIMDe gives %llx", r->name, i, b[i], b[(i + 1) % 16],
                  (unsigned long long)ours, (unsigned long long)simde);
@@ -97,7 +105,7 @@ static void as_simde(lrb_ctx *c, const simde_conversions *simde)
             uint32_t got[16], theirs[16] = {0};
             r->run(c, d, a, b[r->from], got);
             simde->functions[i](d, a, b[r->from], theirs);
-            compare(r, b[r->from], got, theirs);
+            compare(r, b[r->from], got, theirs, !simde->avx512);
         }
     }
     printf("# %d conversions, %d lanes each, SIMDe in %s%s\n", ROWS, SIMDE_LANES, simde->how,
