@@ -92,8 +92,16 @@ def scene_file__bad__one_line_names_the_file(folder):
         fails(['run-kernel', 'mft-primary', '--scene', gltf(folder + '/' + name, **case)], name)
 
 
+def unread(path):
+    """Why this build cannot read a good glTF file; empty if it can."""
+    result = run('run-kernel', 'mft-primary', '--scene', path, '--size', '16x16', '--model', 'native')
+    return 'this build reads no glTF files' if 'this build reads no glTF files' in result.stderr else ''
+
+
 def scene_file__no_camera_no_light__defaults_frame_it(folder):
     path = gltf(folder + '/plain.gltf', [(0, 0, 0), (4, 0, 0), (0, 3, 0), (4, 3, 1)], [0, 1, 2, 1, 3, 2])
+    if unread(path):
+        return unread(path)
     stats = stats_of('packet16-primary', '--scene', path, '--size', '64x64', '--model', 'count')
     assert stats['scene']['triangles'] == 2 and stats['counts']['isect_tests'] > 0
 
@@ -221,6 +229,8 @@ def pictures__all_kinds__written(folder):
 def report__own_scene__every_form(folder):
     out = folder + '/out'
     scene = gltf(folder + '/own scene.gltf', [(0, 0, 0), (4, 0, 0), (0, 3, 0), (4, 3, 1)], [0, 1, 2, 1, 3, 2])
+    if unread(scene):
+        return unread(scene)
     pictures = [] if HAVE_IMAGES else ['--no-pictures']
     result = run('report', 'mft-primary', '--scene', scene, '--scene', scene, '--size', '40x40', '--out', out, *pictures)
     assert result.returncode == 0, result.stderr
