@@ -100,6 +100,14 @@ base_status command_list_add(command_list *list, const char *item, base_error *e
     return BASE_OK;
 }
 
+base_status command_only(const char **taken, const char *what, const char *text, base_error *err)
+{
+    if (*taken)
+        return base_fail(err, BASE_ERR_USAGE, text, "one %s at a time: '%s' was given already", what, *taken);
+    *taken = text;
+    return BASE_OK;
+}
+
 void command_list_free(command_list *list)
 {
     free(list->items);

@@ -48,6 +48,9 @@ typedef struct command_list {
 base_status command_list_add(command_list *list, const char *item, base_error *err);
 void command_list_free(command_list *list);
 
+/** Take the one argument of a command; `what` names it in the error. Errors: BASE_ERR_USAGE if there was one already. */
+base_status command_only(const char **taken, const char *what, const char *text, base_error *err);
+
 /** Load a machine and apply --set overrides. Errors: those of sim_machine_load, _set and _check. */
 base_status command_machine(const char *name, const command_list *sets, sim_machine **out, base_error *err);
 

@@ -44,12 +44,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_OUT: a->out = text; return 0;
     case KEY_TILES: a->tiles = text; return 0;
     case ARGP_KEY_ARG:
-        if (a->trace) {
-            base_fail(a->err, BASE_ERR_USAGE, text, "one trace at a time: '%s' was given already", a->trace);
-            return EINVAL;
-        }
-        a->trace = text;
-        return 0;
+        return command_only(&a->trace, "trace", text, a->err) == BASE_OK ? 0 : EINVAL;
     default:
         return ARGP_ERR_UNKNOWN;
     }

@@ -80,12 +80,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_PARAM: return command_list_add(&a->params, text, a->err) == BASE_OK ? 0 : ENOMEM;
     case KEY_TRACE: a->trace = text; return 0;
     case ARGP_KEY_ARG:
-        if (a->kernel) {
-            base_fail(a->err, BASE_ERR_USAGE, text, "one kernel at a time: '%s' was given already", a->kernel);
-            return EINVAL;
-        }
-        a->kernel = text;
-        return 0;
+        return command_only(&a->kernel, "kernel", text, a->err) == BASE_OK ? 0 : EINVAL;
     default:
         return ARGP_ERR_UNKNOWN;
     }

@@ -48,12 +48,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_JOBS: a->jobs = text; return 0;
     case KEY_JSON: a->json = true; return 0;
     case ARGP_KEY_ARG:
-        if (a->subject) {
-            base_fail(a->err, BASE_ERR_USAGE, text, "one kernel or trace at a time: '%s' was given already", a->subject);
-            return EINVAL;
-        }
-        a->subject = text;
-        return 0;
+        return command_only(&a->subject, "kernel or trace", text, a->err) == BASE_OK ? 0 : EINVAL;
     default:
         return ARGP_ERR_UNKNOWN;
     }

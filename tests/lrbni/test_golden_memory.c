@@ -1,10 +1,7 @@
 /* The golden cases of isa-facts section 6 that concern memory, by their numbers. */
-#include <signal.h>
 #include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "tests/lrbni/case.h"
+#include "tests/lrbni/child.h"
 
 enum { ADDRESS = 0x5000 };
 
@@ -203,36 +200,18 @@ static void access_at(lrb_ctx *c, int number, int32_t off)
 }
 enum { ACCESSES = 15 };
 
-/* How a child process ends that makes the access: 0, or the signal that ended it. */
-static int end_of_access(lrb_ctx *c, int number, int32_t off)
-{
-    fflush(NULL);
-    pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0) {
-        signal(SIGABRT, SIG_DFL);
-        if (!freopen("/dev/null", "w", stderr))
-            _exit(3);
-        access_at(c, number, off);
-        _exit(0);
-    }
-    int status = 0;
-    assert_int_equal(waitpid(child, &status, 0), child);
-    return WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
-}
-
 static void case66__misaligned__stops(void **state)
 {
 #ifdef NDEBUG
-    (void)state, (void)end_of_access;
+    (void)state, (void)access_at;
     printf("# skipped: built without assertions, which are what stops a misaligned access\n");
 #else
     static const int aligned_to[ACCESSES] = {64, 64, 16, 32, 16, 32, 16, 64, 32, 4, 8, 8, 4, 2, 8};
     for (int i = 0; i < ACCESSES; i++) {
-        assert_int_equal(end_of_access(*state, i, 0), 0);
-        assert_int_equal(end_of_access(*state, i, aligned_to[i]), 0);
-        assert_int_equal(end_of_access(*state, i, aligned_to[i] / 2), SIGABRT);
-        assert_int_equal(end_of_access(*state, i, 1), SIGABRT);
+        assert_int_equal(end_of_access(access_at, *state, i, 0), 0);
+        assert_int_equal(end_of_access(access_at, *state, i, aligned_to[i]), 0);
+        assert_int_equal(end_of_access(access_at, *state, i, aligned_to[i] / 2), SIGABRT);
+        assert_int_equal(end_of_access(access_at, *state, i, 1), SIGABRT);
     }
 #endif
 }
