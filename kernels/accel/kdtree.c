@@ -59,7 +59,7 @@ base_status kdtree_build(const scene *s, const kdtree_options *options, kdtree *
         return base_fail(err, BASE_ERR_NOMEM, "kd-tree", "out of memory");
     status = kdtree_builder_run(s, options, tree, err);
     if (status == BASE_OK)
-        status = kdtree_occluders_none(tree, err);
+        status = kdtree_occluders_find(s, options->empty_occluders, options->jobs, tree, err);
     if (status != BASE_OK) {
         kdtree_destroy(&tree);
         return status;

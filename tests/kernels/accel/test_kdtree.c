@@ -139,7 +139,7 @@ static void kdtree__degenerate_triangles__left_out_and_counted(void **state)
 
 static void kdtree__any_number_of_jobs__same_bytes(void **state)
 {
-    scene scenes[] = {soup_random(8, 150000, 0.01), soup_clustered(9, 70000), soup_coplanar(10, 40000)};
+    scene scenes[] = {soup_random(8, 70000, 0.01), soup_clustered(9, 5000), soup_coplanar(10, 3000)};
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         kdtree_options options = kdtree_options_default();
