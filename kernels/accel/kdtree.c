@@ -5,6 +5,7 @@
 
 #include "kernels/accel/kdtree_builder.h"
 #include "kernels/accel/kdtree_occluders.h"
+#include "kernels/accel/kdtree_tally.h"
 
 #define MOST_MIN_AREA 1000000000u
 
@@ -60,6 +61,8 @@ base_status kdtree_build(const scene *s, const kdtree_options *options, kdtree *
     status = kdtree_builder_run(s, options, tree, err);
     if (status == BASE_OK)
         status = kdtree_occluders_find(s, options->empty_occluders, options->jobs, tree, err);
+    if (status == BASE_OK)
+        status = kdtree_tally(tree, options, s->name, err);
     if (status != BASE_OK) {
         kdtree_destroy(&tree);
         return status;

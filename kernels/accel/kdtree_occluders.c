@@ -248,7 +248,6 @@ static base_status join_sets(finder *f, size_t pieces, base_error *err)
         if (leaf->set == 0)
             continue;
         tree->nodes[leaf->node].link = 4 * numbers[first + leaf->set - 1] | KDTREE_LEAF;
-        tree->enclosed_count++;
     }
     free(found);
     free(numbers);
