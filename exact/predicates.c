@@ -1,10 +1,10 @@
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 
 #include <assert.h>
 #include <float.h>
 #include <math.h>
 
-#include "tests/oracles/exact_vector.h"
+#include "exact/vector.h"
 
 /* A triangle as seen from a ray's origin: integers in units of 2^position_exponent and 2^dir_exponent. */
 typedef struct view {

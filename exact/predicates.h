@@ -5,8 +5,8 @@
  * finite (asserted) unless a function says otherwise; vertices may coincide and directions may be zero. Nothing here
  * shares code with the kernels. Memory is GMP's: when it runs out, the process aborts.
  */
-#ifndef TESTS_ORACLES_EXACT_H
-#define TESTS_ORACLES_EXACT_H
+#ifndef EXACT_PREDICATES_H
+#define EXACT_PREDICATES_H
 
 #include <gmp.h>
 
