@@ -21,7 +21,7 @@
 #include "tests/kernels/trace.h"
 #include "tests/kernels/views.h"
 #include "tests/oracles/embree_oracle.h"
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 #include "tests/oracles/hit_judge.h"
 
 enum { JOBS = 2, MOST_SCENES = 64, SAMPLE = 499 };
