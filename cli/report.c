@@ -26,7 +26,7 @@ static const char suite_name[] = "mft-primary";
 
 static const struct argp_option option_table[] = {
     {"out", KEY_OUT, "DIR", 0, "where the files go; made if it is not there; default out", 0},
-    {"scene", KEY_SCENE, "SCENE", 0, "take this scene instead of the built-in ones; repeatable", 0},
+    {"scene", KEY_SCENE, "SCENE", 0, "take this scene instead of the three small built-in ones; repeatable", 0},
     {"size", KEY_SIZE, "WxH", 0, "image size in pixels; default 1024x1024, as the paper's", 0},
     {"machine", KEY_MACHINE, "M", 0, "a machine (see lanetrace machines), or a description's path; default larrabee", 0},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a field of the machine; repeatable", 0},
@@ -316,19 +316,14 @@ static base_status prepare(const arguments *a, suite *s, base_error *err)
 
 static base_status measure_all(const arguments *a, suite *s, base_error *err)
 {
-    size_t builtins;
-    const scene_builtin *builtin = scene_builtin_list(&builtins);
-    size_t count = a->scenes.count ? a->scenes.count : builtins;
+    size_t count = a->scenes.count;
+    const char *const *scenes = count ? a->scenes.items : scene_builtin_usual(&count);
     base_status status = BASE_OK;
     s->entries = calloc(count, sizeof *s->entries);
     if (!s->entries)
         return base_fail(err, BASE_ERR_NOMEM, "report", "out of memory");
-    for (size_t i = 0; status == BASE_OK && i < count; i++) {
-        char name[64];
-        if (!a->scenes.count)
-            snprintf(name, sizeof name, "builtin:%s", builtin[i].name);
-        status = measure(s, a->scenes.count ? a->scenes.items[i] : name, err);
-    }
+    for (size_t i = 0; status == BASE_OK && i < count; i++)
+        status = measure(s, scenes[i], err);
     return status;
 }
 
