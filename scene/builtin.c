@@ -12,6 +12,7 @@ static const scene_builtin builtins[] = {
         scene_build_creature},
     {"atrium-76k", "a courtyard with two storeys of vaulted arcades, cloths, ropes and a fountain", "Sponza",
         SCENE_ATRIUM_TRIANGLES, scene_build_atrium},
+    {"fern-212k", "a fern of thousands of small leaflets on a forest floor", "Fern", SCENE_FERN_TRIANGLES, scene_build_fern},
 };
 
 const scene_builtin *scene_builtin_list(size_t *count)
