@@ -12,6 +12,8 @@ static const scene_builtin builtins[] = {
         scene_build_creature},
     {"atrium-76k", "a courtyard with two storeys of vaulted arcades, cloths, ropes and a fountain", "Sponza",
         SCENE_ATRIUM_TRIANGLES, scene_build_atrium},
+    {"forest-174k", "a forest glade with a cottage: old trees, toadstools, ferns and grass on large ground", "Fairy Forest", SCENE_FOREST_TRIANGLES,
+        scene_build_forest},
     {"fern-212k", "a fern of thousands of small leaflets on a forest floor", "Fern", SCENE_FERN_TRIANGLES, scene_build_fern},
 };
 

@@ -34,7 +34,8 @@ static void fronds(scene_mesh *m, const palette *p)
     enum { FRONDS = 15 };
     for (int i = 0; i < FRONDS; i++) {
         double turn = i * 0.381966 + scene_mesh_random(m, -0.02, 0.02); /* the golden section, as leaves do */
-        double length = scene_mesh_random(m, 0.95, 1.25) * (i < 5 ? 0.82 : 1.0), rise = (i < 5 ? 1.05 : 0.72) + scene_mesh_random(m, 0, 0.14);
+        double length = scene_mesh_random(m, 0.95, 1.25) * (i < 5 ? 0.82 : 1.0);
+        double rise = (i < 5 ? 1.05 : 0.72) + scene_mesh_random(m, 0, 0.14);
         double shade = scene_mesh_random(m, 0, 4), c, s;
         scene_frond f = {length, rise, 31, 15, 0.27, 1};
         scene_direction(turn, &c, &s);
@@ -65,7 +66,8 @@ static scene_point ground_place(const void *user, double u, double v)
 {
     (void)user;
     double x = (u - 0.5) * 9.0, z = (0.5 - v) * 9.0, out = x * x + z * z;
-    return scene_at(x, -0.015 + 0.035 * scene_noise_sum(scene_at(2.2 * x, 0.7, 2.2 * z), 4) * (out < 1.0 ? out : 1.0) + 0.003 * out, z);
+    double rough = 0.035 * scene_noise_sum(scene_at(2.2 * x, 0.7, 2.2 * z), 4);
+    return scene_at(x, -0.015 + rough * (out < 1.0 ? out : 1.0) + 0.003 * out, z);
 }
 
 static double stone_relief(const scene_skin_place *p)
@@ -89,7 +91,8 @@ static void floor_things(scene_mesh *m, const palette *p)
     scene_skin_draw(m, &wood, 1, 0.013, NULL, NULL);
     for (int i = 0; i < 900; i++) {
         double x = scene_mesh_random(m, -2.6, 2.6), z = scene_mesh_random(m, -2.6, 2.6), turn = scene_mesh_random(m, 0, 1);
-        double tilt = scene_mesh_random(m, -0.2, 0.2), size = scene_mesh_random(m, 0.04, 0.09), shade = scene_mesh_random(m, 0, 3), c, s;
+        double tilt = scene_mesh_random(m, -0.2, 0.2), size = scene_mesh_random(m, 0.04, 0.09);
+        double shade = scene_mesh_random(m, 0, 3), c, s;
         scene_direction(turn, &c, &s);
         scene_point along = scene_point_unit(scene_at(c, tilt, s));
         scene_leaf leaf = {scene_at(x, 0.03 + 0.003 * (x * x + z * z), z), along,

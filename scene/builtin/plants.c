@@ -10,15 +10,16 @@ void scene_leaf_draw(scene_mesh *m, const scene_leaf *leaf, int ribbed)
 {
     double l = leaf->length, w = leaf->width / 2;
     scene_point side = scene_point_cross(leaf->along, leaf->up), up = leaf->up;
-    scene_point middle = scene_point_mix(leaf->at, 1, leaf->along, 0.45 * l), sunk = scene_point_mix(middle, 1, up, -0.05 * l);
+    scene_point middle = scene_point_mix(leaf->at, 1, leaf->along, 0.45 * l);
     scene_point tip = scene_point_add(leaf->at, scene_point_mix(leaf->along, l, up, -leaf->droop * l));
-    scene_point left = scene_point_mix(sunk, 1, side, -w), right = scene_point_mix(sunk, 1, side, w);
+    /* the edges lie above the line from stalk to tip, or with a rib below it */
+    scene_point level = scene_point_mix(middle, 1, up, ribbed ? -0.05 * l : (0.05 - 0.45 * leaf->droop) * l);
+    scene_point left = scene_point_mix(level, 1, side, -w), right = scene_point_mix(level, 1, side, w);
     if (!ribbed) {
-        scene_point stalk = scene_point_mix(leaf->at, 1, up, 0.03 * l);
-        scene_mesh_triangle(m, stalk, right, left);
+        scene_mesh_triangle(m, leaf->at, right, left);
         scene_mesh_triangle(m, right, tip, left);
-        scene_mesh_triangle(m, stalk, left, tip);
-        scene_mesh_triangle(m, stalk, tip, right);
+        scene_mesh_triangle(m, leaf->at, left, tip);
+        scene_mesh_triangle(m, leaf->at, tip, right);
         return;
     }
     scene_point edge[5] = {leaf->at, right, tip, left, leaf->at};
@@ -61,7 +62,8 @@ static void stalk(scene_mesh *m, const scene_frond *f, scene_point at, scene_poi
             double turn = side ? 1.0 : -1.0, sink = scene_mesh_random(m, -0.12, 0.20);
             scene_point from = scene_point_add(at, scene_point_mix(along, length * t, up, -length * droop * t * t));
             scene_point across = scene_point_scale(scene_point_cross(along, up), turn);
-            scene_point way = scene_point_unit(scene_point_add(scene_point_mix(across, 1, along, 0.55), scene_point_scale(up, -sink)));
+            scene_point way = scene_point_add(scene_point_mix(across, 1, along, 0.55), scene_point_scale(up, -sink));
+            way = scene_point_unit(way);
             scene_point face = scene_point_unit(scene_point_cross(scene_point_cross(way, up), way));
             double reach = size * 0.25 * (0.35 * f->breadth * f->length + 0.65 * length);
             scene_leaf leaf = {from, way, face, reach, 0.62 * (length / pairs + 0.2 * reach), 0.12};
@@ -174,8 +176,8 @@ void scene_toadstool(scene_mesh *m, double height, double radius, unsigned sides
     double h = height, r = radius, foot = 0.26 * r, rim = h - 0.55 * r;
     const scene_profile stalk_outline[] = {{1.35 * foot, -0.02 * h}, {1.2 * foot, 0.10 * h}, {0.85 * foot, 0.45 * h},
         {0.8 * foot, 0.58 * h}, {1.5 * foot, 0.56 * h}, {0.8 * foot, 0.62 * h}, {0.75 * foot, rim + 0.1 * r}};
-    const scene_profile cap_outline[] = {{0.75 * foot, rim + 0.1 * r}, {0.92 * r, rim - 0.03 * r}, {r, rim}, {0.97 * r, rim + 0.12 * r},
-        {0.80 * r, rim + 0.32 * r}, {0.50 * r, rim + 0.47 * r}, {0.22 * r, rim + 0.54 * r}, {0, h}};
+    const scene_profile cap_outline[] = {{0.75 * foot, rim + 0.1 * r}, {0.92 * r, rim - 0.03 * r}, {r, rim},
+        {0.97 * r, rim + 0.12 * r}, {0.80 * r, rim + 0.32 * r}, {0.50 * r, rim + 0.47 * r}, {0.22 * r, rim + 0.54 * r}, {0, h}};
     static const double spot[8][2] = {{0.08, 0.1}, {0.45, 0.0}, {0.5, 0.28}, {0.42, 0.55}, {0.5, 0.8}, {0.74, 0.13}, {0.78, 0.46},
         {0.72, 0.72}};
     m->material = stem;

@@ -39,7 +39,7 @@ typedef struct scene_tree {
 
 void scene_tree_draw(scene_mesh *m, const scene_tree *tree);
 
-/** A toadstool with gills' edge, ring and spots: sides * 26 + 160 triangles. */
+/** A toadstool with gills' edge, ring and spots: sides * 25 + 160 triangles. */
 void scene_toadstool(scene_mesh *m, double height, double radius, unsigned sides, uint32_t stem, uint32_t cap);
 
 /** Blades of grass, 4 triangles each, scattered over [x0, x1] x [z0, z1]. */

@@ -51,7 +51,8 @@ int skin_field_begin(skin_field *f, const scene_limb *limbs, size_t count)
     size_t bones = 0;
     for (size_t i = 0; i < count; i++)
         bones += (limbs[i].count - 1) * PIECES;
-    *f = (skin_field){.bones = malloc(bones * sizeof *f->bones), .slope = 1.0, .low = {FAR, FAR, FAR}, .high = {-FAR, -FAR, -FAR}};
+    *f = (skin_field){.slope = 1.0, .low = {FAR, FAR, FAR}, .high = {-FAR, -FAR, -FAR}};
+    f->bones = malloc(bones * sizeof *f->bones);
     if (!f->bones)
         return 0;
     for (size_t i = 0; i < count; i++) {

@@ -26,6 +26,7 @@ static const struct expected {
     {"hall-60k", 60000, UINT64_C(0xebcbef93d877f773), 95},
     {"creature-69k", 69000, UINT64_C(0x505266f7a3ade138), 60},
     {"atrium-76k", 76000, UINT64_C(0x06057a9b1c1354e5), 95},
+    {"forest-174k", 174000, UINT64_C(0xee40692a1fb0b1b1), 75},
     {"fern-212k", 212000, UINT64_C(0xd3066188274b2669), 80},
 };
 enum { SCENES = sizeof expected / sizeof *expected };
