@@ -6,7 +6,7 @@
 
 /* The body lies in a lattice of samples, worked through in blocks. A block draws the quads about the lattice edges that
  * start in it; these reach one layer of cells back, and a cell has a sample more than cells. */
-enum { BLOCK = 16, CELLS = BLOCK + 1, SAMPLES = BLOCK + 2, PART = 6, PARTS = SAMPLES / PART };
+enum { BLOCK = 16, CELLS = BLOCK + 1, SAMPLES = BLOCK + 2, PART = 3, PARTS = SAMPLES / PART };
 
 typedef struct net {
     scene_mesh *mesh;
@@ -27,12 +27,17 @@ static scene_point lattice_point(const net *n, double x, double y, double z)
         n->field->low.z + n->cell * (n->first[2] + z));
 }
 
+/* Half the diagonal of so many samples a side and an edge more, so that no edge out of them meets the skin either. */
+static double reach_of(const net *n, int samples)
+{
+    return n->cell * (0.87 * (samples - 1) + 1.0);
+}
+
 /* Sample a part of the block; away from the skin, one value stands for all, its sign being right. */
 static int sample_part(net *n, int x0, int y0, int z0)
 {
     scene_point middle = lattice_point(n, x0 + (PART - 1) / 2.0, y0 + (PART - 1) / 2.0, z0 + (PART - 1) / 2.0);
-    /* half the part's diagonal and an edge more, so that no edge out of the part meets the skin either */
-    double reach = n->cell * 0.87 * (PART + 1);
+    double reach = reach_of(n, PART);
     double rough = skin_field_at(n->near_block, n->near_block_count, middle, 0);
     int far = fabs(rough) > reach * n->field->slope + n->field->relief;
     size_t count = far ? 0 : skin_field_near(n->field, n->near_block, n->near_block_count, middle, reach, n->near_part);
@@ -133,7 +138,7 @@ static void draw_blocks(net *n)
     const skin_field *f = n->field;
     long blocks[3] = {1 + (long)((f->high.x - f->low.x) / (n->cell * BLOCK)),
         1 + (long)((f->high.y - f->low.y) / (n->cell * BLOCK)), 1 + (long)((f->high.z - f->low.z) / (n->cell * BLOCK))};
-    double reach = n->cell * 0.87 * (SAMPLES + 1);
+    double reach = reach_of(n, SAMPLES);
     for (long k = 0; k < blocks[0] * blocks[1] * blocks[2] && n->mesh->status == BASE_OK; k++) {
         n->first[0] = k % blocks[0] * BLOCK - 1;
         n->first[1] = k / blocks[0] % blocks[1] * BLOCK - 1;
