@@ -2,12 +2,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cli/suite.h"
+#include "cli/suite_machine.h"
 #include "reports/views/model_speeds.h"
 
-enum { CHANGED_BYTES = 240, MOST_TRIES = 5, MOST_SETS = 5 };
+enum { MOST_TRIES = 5 };
 
 static const double enough_seconds = 0.5; /* a run is tried again until its tries took so long; the shortest one counts */
 
@@ -16,19 +16,16 @@ typedef struct way {
     const char *name;
     run_model model;
     double error; /* of a sampled run */
-    struct {
-        const char *field, *value; /* value NULL: that of l1.latency, so that a line from anywhere is there like one from the first level */
-    } sets[MOST_SETS];             /* overrides of the machine */
+    const suite_change *changes; /* of the machine */
 } way;
 
 static const way ways[] = {
     {.name = "native", .model = RUN_NATIVE},
     {.name = "count", .model = RUN_COUNT},
     {.name = "issue", .model = RUN_ISSUE},
-    {.name = "core, without caches", .model = RUN_CORE, .sets = {{"l2.latency", NULL}, {"l2.cycles_per_line", "0"}, {"memory.latency", NULL},
-                                                                 {"memory.cycles_per_line", "0"}, {"memory.chip_bytes_per_cycle", "0"}}},
-    {.name = "core, without threads", .model = RUN_CORE, .sets = {{"machine.threads", "1"}}},
-    {.name = "core, without mispredictions", .model = RUN_CORE, .sets = {{"branch.mispredict_penalty", "0"}, {"branch.btb_miss_penalty", "0"}}},
+    {.name = "core, without caches", .model = RUN_CORE, .changes = suite_without_caches},
+    {.name = "core, without threads", .model = RUN_CORE, .changes = suite_without_threads},
+    {.name = "core, without mispredictions", .model = RUN_CORE, .changes = suite_without_mispredictions},
     {.name = "core, sampled to 5%", .model = RUN_CORE, .error = 0.05},
     {.name = "core, sampled to 2%", .model = RUN_CORE, .error = 0.02},
     {.name = "core, sampled to 1%", .model = RUN_CORE, .error = 0.01},
@@ -36,35 +33,14 @@ static const way ways[] = {
 };
 enum { WAYS = sizeof ways / sizeof *ways };
 
-/* The machine of a way, and what is changed in it, in words. */
-typedef struct variant {
-    sim_machine *machine;
-    char changed[CHANGED_BYTES];
-} variant;
-
 typedef struct measured {
-    variant variants[WAYS];
+    suite_machine machines[WAYS];
     model_speed *rows;
     size_t count;
 } measured;
 
-/* The suite's machine with the way's fields changed. */
-static base_status make_variant(const suite *s, const way *w, variant *v, base_error *err)
-{
-    size_t length = 0;
-    base_status status = command_machine(s->options->machine_name ? s->options->machine_name : "larrabee", &s->options->sets, &v->machine, err);
-    for (int i = 0; status == BASE_OK && i < MOST_SETS && w->sets[i].field; i++) {
-        char set[80], same[16];
-        snprintf(same, sizeof same, "%u", v->machine->l1.latency);
-        snprintf(set, sizeof set, "%s=%s", w->sets[i].field, w->sets[i].value ? w->sets[i].value : same);
-        length += (size_t)snprintf(v->changed + length, sizeof v->changed - length, "%s%s", i ? ", " : "", set);
-        status = sim_machine_set(v->machine, set, err);
-    }
-    return status == BASE_OK ? sim_machine_check(v->machine, err) : status;
-}
-
 /* The least time of some tries; the results of all are the same. */
-static base_status run_way(const suite *s, const suite_scene *on, const kernel_info *kernel, const way *w, const variant *v, model_speed *row, base_error *err)
+static base_status run_way(const suite *s, const suite_scene *on, const kernel_info *kernel, const way *w, const suite_machine *v, model_speed *row, base_error *err)
 {
     run_options options = suite_run_options(s, kernel, w->model);
     double spent = 0;
@@ -74,8 +50,8 @@ static base_status run_way(const suite *s, const suite_scene *on, const kernel_i
     for (int i = 0; status == BASE_OK && i < MOST_TRIES && spent < enough_seconds; i++) {
         run_result result = {0};
         status = run_kernel(on->scene, v->machine, &options, &result, err);
-        spent += result.kernel_seconds;
-        row->seconds = fmin(row->seconds, result.kernel_seconds);
+        spent += result.processor_seconds;
+        row->seconds = fmin(row->seconds, result.processor_seconds);
         row->has_cycles = w->model != RUN_NATIVE;
         row->cycles = result.cycles;
         row->tiles_simulated = result.estimate.tiles_simulated;
@@ -90,7 +66,7 @@ static base_status measure_kernel(const suite *s, const suite_scene *on, const k
     base_status status = BASE_OK;
     model_speed *rows = m->rows + m->count;
     for (int w = 0; status == BASE_OK && w < WAYS; w++)
-        status = run_way(s, on, kernel, &ways[w], &m->variants[w], &rows[w], err);
+        status = run_way(s, on, kernel, &ways[w], &m->machines[w], &rows[w], err);
     for (int w = 0; status == BASE_OK && w < WAYS; w++) {
         rows[w].native_seconds = rows[0].seconds;
         rows[w].core_cycles = rows[WAYS - 1].cycles;
@@ -135,7 +111,7 @@ static base_status add_plot(suite *s, const measured *m, base_error *err)
 static base_status add_results(suite *s, const measured *m, base_error *err)
 {
     char caption[200];
-    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, %u host thread%s, the shortest of up to %d runs.", s->width, s->height,
+    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, %u host thread%s; host time is processor time, the least of up to %d runs.", s->width, s->height,
              s->options->machine->name, s->jobs, s->jobs == 1 ? "" : "s", MOST_TRIES);
     report_page_add_heading(s->page, 1, "Summary");
     base_status status = suite_add_table(s, "-summary", model_speeds_summary(m->rows, m->count, caption), err);
@@ -152,13 +128,13 @@ static base_status measure(suite *s, base_error *err)
     if (status == BASE_OK && s->options->machine->cores != 1)
         status = base_fail(err, BASE_ERR_USAGE, "cores", "suite models samples one core, not %u", s->options->machine->cores);
     for (int w = 0; status == BASE_OK && w < WAYS; w++)
-        status = make_variant(s, &ways[w], &m.variants[w], err);
+        status = suite_machine_create(s, ways[w].changes, &m.machines[w], err);
     if (status == BASE_OK)
         status = suite_each_scene(s, measure_scene, &m, err);
     if (status == BASE_OK)
         status = add_results(s, &m, err);
     for (int w = 0; w < WAYS; w++)
-        sim_machine_destroy(&m.variants[w].machine);
+        sim_machine_destroy(&m.machines[w].machine);
     free(m.rows);
     return status;
 }

@@ -7,7 +7,7 @@ import sys
 from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-primary', 'models']
+SUITES = ['mft-primary', 'models', 'mft-table1']
 
 
 def own_scene(folder):
@@ -103,6 +103,43 @@ def models__builtin_scene__cycles_do_not_depend_on_jobs(folder):
     assert not any(name.endswith('.png') for name in os.listdir(folder + '/1/out'))
     fails(['report', 'models', '--kernel', 'mft-primry', '--out', folder + '/no'], 'mft-primry')
     fails(['report', 'models', '--set', 'cores=2', '--out', folder + '/no'], 'cores')
+
+
+TABLE1 = 'MFT Table 1: measured, and published by Benthin and Wald 2009'
+
+
+def mft_table1__builtin_scenes__as_run_alone_and_published_beside(folder):
+    pictures = [] if HAVE_IMAGES else ['--no-pictures']
+    tables = report(folder, 'mft-table1', '--scene', 'builtin:hall-60k', '--scene', 'builtin:rooms-804', '--size', '48x40', *pictures)
+    rows = tables[TABLE1]
+    published = [row for row in rows if row['basis'] == 'published']
+    assert len(published) == 16 and len({(row['scene'], row['algorithm']) for row in published}) == 16
+    for kernel, algorithm in (('packet16-primary', 'P-Packet'), ('mft-primary', 'P-Frusta')):
+        stats = stats_of(kernel, '--scene', 'builtin:rooms-804', '--size', '48x40', '--param', 'cull_backface=1')
+        row = next(r for r in rows if r['scene'] == 'rooms-804' and r['algorithm'] == algorithm)
+        assert row['cycles'] == stats['cycles']['total'] and row['AABB tests'] == stats['counts']['aabb_tests']
+    at = next(i for i, r in enumerate(rows) if r['scene'] == 'hall-60k' and r['algorithm'] == 'P-Frusta')
+    assert rows[at + 1]['scene'] == 'Call of Juarez Saloon (60K tri)' and rows[at + 1]['cycles'] == 31500000
+    doubtful = next(r for r in published if r['scene'].startswith('Fern') and r['algorithm'] == 'S-Packet')
+    assert doubtful['doubtful readings'] == 'uncertain: after culling, cycles'
+    reductions = tables['Reductions: packets / frusta']
+    ours = next(r for r in reductions if r['scene'] == 'hall-60k' and r['rays'] == 'primary rays')
+    packet, frusta = (next(r for r in rows if r['scene'] == 'hall-60k' and r['algorithm'] == a) for a in ('P-Packet', 'P-Frusta'))
+    assert abs(ours['cycles'] - packet['cycles'] / frusta['cycles']) < 0.006
+    assert 'P-Frusta has' in tables['Where reductions differ'][0]['in words']
+    if HAVE_IMAGES:
+        assert os.path.exists(folder + '/out/hall-60k-mft-primary-core-cycles.png')
+
+
+def mft_table1__own_scene__sampled(folder):
+    scene = own_scene(folder)
+    if unread(scene):
+        return unread(scene)
+    tables = report(folder, 'mft-table1', '--scene', scene, '--size', '64x64', '--error', '0.1', '--no-pictures')
+    assert [r['basis'] for r in tables[TABLE1]] == ['measured'] * 2 + ['published'] * 16 and tables['Where reductions differ'] == []
+    fails(['report', 'mft-table1', '--error', '1.5', '--out', folder + '/no'], '--error')
+    fails(['report', 'mft-table1', '--error', 'x', '--out', folder + '/no'], '--error')
+    return None
 
 
 def plot__no_gnuplot__tables_written_and_a_line(folder):
