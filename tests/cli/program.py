@@ -1,5 +1,7 @@
-"""What the tests of the program share: running it, its errors, cases in TAP. The program is the first argument."""
+"""What the tests of the program share: running it, its errors, scene files, cases in TAP. The program is the first argument."""
+import base64
 import json
+import struct
 import subprocess
 import sys
 import tempfile
@@ -26,6 +28,36 @@ def fails(arguments, named, code=2):
     assert len(lines) == 1 and lines[0].startswith('lanetrace: error: '), (arguments, result.stderr)
     assert named in lines[0], (arguments, lines[0])
     assert result.stdout == '', (arguments, result.stdout)
+
+
+def gltf(path, positions, indices=None, **changes):
+    """A .gltf of one mesh with its data inside."""
+    data = b''.join(struct.pack('<3f', *p) for p in positions)
+    attributes = {'POSITION': 0}
+    primitive = {'attributes': attributes}
+    views = [{'buffer': 0, 'byteLength': len(data)}]
+    accessors = [{'bufferView': 0, 'componentType': 5126, 'count': len(positions), 'type': 'VEC3'}]
+    if indices:
+        packed = struct.pack('<%dH' % len(indices), *indices)
+        primitive['indices'] = 1
+        views.append({'buffer': 0, 'byteOffset': len(data), 'byteLength': len(packed)})
+        accessors.append({'bufferView': 1, 'componentType': 5123, 'count': len(indices), 'type': 'SCALAR'})
+        data += packed
+    document = {
+        'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}],
+        'meshes': [{'primitives': [primitive]}], 'bufferViews': views, 'accessors': accessors,
+        'buffers': [{'byteLength': len(data), 'uri': 'data:application/octet-stream;base64,' + base64.b64encode(data).decode()}],
+    }
+    document.update(changes)
+    with open(path, 'w', encoding='utf-8') as file:
+        json.dump(document, file)
+    return path
+
+
+def unread(path):
+    """Why this build cannot read a good glTF file; empty if it can."""
+    result = run('run-kernel', 'mft-primary', '--scene', path, '--size', '16x16', '--model', 'native')
+    return 'this build reads no glTF files' if 'this build reads no glTF files' in result.stderr else ''
 
 
 def main(names):

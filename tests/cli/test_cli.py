@@ -1,37 +1,12 @@
 """The program lanetrace from outside: exit codes, error lines, files, statistics. test_cli.py LANETRACE; TAP on stdout."""
-import base64
 import json
 import os
 import struct
 import sys
 
-from program import SMALL, fails, main, run, stats_of
+from program import SMALL, fails, gltf, main, run, stats_of, unread
 
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-
-
-def gltf(path, positions, indices=None, **changes):
-    """A .gltf of one mesh with its data inside."""
-    data = b''.join(struct.pack('<3f', *p) for p in positions)
-    attributes = {'POSITION': 0}
-    primitive = {'attributes': attributes}
-    views = [{'buffer': 0, 'byteLength': len(data)}]
-    accessors = [{'bufferView': 0, 'componentType': 5126, 'count': len(positions), 'type': 'VEC3'}]
-    if indices:
-        packed = struct.pack('<%dH' % len(indices), *indices)
-        primitive['indices'] = 1
-        views.append({'buffer': 0, 'byteOffset': len(data), 'byteLength': len(packed)})
-        accessors.append({'bufferView': 1, 'componentType': 5123, 'count': len(indices), 'type': 'SCALAR'})
-        data += packed
-    document = {
-        'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}],
-        'meshes': [{'primitives': [primitive]}], 'bufferViews': views, 'accessors': accessors,
-        'buffers': [{'byteLength': len(data), 'uri': 'data:application/octet-stream;base64,' + base64.b64encode(data).decode()}],
-    }
-    document.update(changes)
-    with open(path, 'w', encoding='utf-8') as file:
-        json.dump(document, file)
-    return path
 
 
 def usage__wrong_words__one_line_and_exit_2(folder):
@@ -59,7 +34,6 @@ def usage__wrong_words__one_line_and_exit_2(folder):
     fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap-of', 'aabb_tests'], '--heatmap-of')
     fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap', folder + '/h.png', '--heatmap-of', 'units_packets'], 'units_packets')
     fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap', folder + '/h.png', '--model', 'native'], '--heatmap')
-    fails(['report', 'mft-table9'], 'mft-table9')
     fails(['regress', 'mft-table9'], 'mft-table9')
     fails(['kernels', 'all'], 'all')
     fails(['machines', 'pentium'], 'pentium')
@@ -92,12 +66,6 @@ def scene_file__bad__one_line_names_the_file(folder):
         fails(['run-kernel', 'mft-primary', '--scene', gltf(folder + '/' + name, **case)], name)
 
 
-def unread(path):
-    """Why this build cannot read a good glTF file; empty if it can."""
-    result = run('run-kernel', 'mft-primary', '--scene', path, '--size', '16x16', '--model', 'native')
-    return 'this build reads no glTF files' if 'this build reads no glTF files' in result.stderr else ''
-
-
 def scene_file__no_camera_no_light__defaults_frame_it(folder):
     path = gltf(folder + '/plain.gltf', [(0, 0, 0), (4, 0, 0), (0, 3, 0), (4, 3, 1)], [0, 1, 2, 1, 3, 2])
     if unread(path):
@@ -111,7 +79,6 @@ def output__unwritable__found_before_the_work(folder):
         path = folder + '/no-such-folder/file' + ('.exr' if option == '--aov' else '.png')
         fails(['run-kernel', 'mft-primary', *SMALL, option, path], path)
     fails(['run-kernel', 'mft-primary', *SMALL, '--stats', folder], folder)
-    fails(['report', '--out', folder + '/no/such', '--size', '16x16', '--no-pictures'], folder + '/no/such')
 
 
 def output__disk_full__exit_3(folder):
@@ -224,24 +191,6 @@ def pictures__all_kinds__written(folder):
     assert all(os.path.getsize(path) > 500 for path in paths)
     fails(['run-kernel', 'mft-primary', *SMALL, '--image', folder + '/a.nothing'], 'a.nothing')
     return None
-
-
-def report__own_scene__every_form(folder):
-    out = folder + '/out'
-    scene = gltf(folder + '/own scene.gltf', [(0, 0, 0), (4, 0, 0), (0, 3, 0), (4, 3, 1)], [0, 1, 2, 1, 3, 2])
-    if unread(scene):
-        return unread(scene)
-    pictures = [] if HAVE_IMAGES else ['--no-pictures']
-    result = run('report', 'mft-primary', '--scene', scene, '--scene', scene, '--size', '40x40', '--out', out, *pictures)
-    assert result.returncode == 0, result.stderr
-    tables = json.load(open(out + '/mft-primary.json', encoding='utf-8'))['tables']
-    assert [row[1] for row in tables[0]['rows'][:4]] == ['own scene'] * 4
-    assert open(out + '/mft-primary.csv', encoding='utf-8').readline().startswith('group,scene,algorithm,rays')
-    assert open(out + '/mft-primary.txt', encoding='utf-8').read() == result.stdout
-    page = open(out + '/mft-primary.html', encoding='utf-8').read()
-    assert page.count('<table') == 2 and (not HAVE_IMAGES or page.count('<img') == 6) and 'http' not in page.replace('http-equiv', '')
-    if HAVE_IMAGES:
-        assert os.path.exists(out + '/own_scene.png') and os.path.exists(out + '/own_scene-2.png')
 
 
 def regress__stored_baseline__equal_and_differences_named(folder):

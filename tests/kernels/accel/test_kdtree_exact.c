@@ -19,7 +19,7 @@
 #include "lrbni/base/random.h"
 #include "tests/kernels/accel/kdtree_check.h"
 #include "tests/kernels/accel/soup.h"
-#include "tests/oracles/exact_clip.h"
+#include "exact/clip.h"
 
 typedef struct sums {
     const scene *scene;

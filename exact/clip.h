@@ -1,6 +1,6 @@
 /* Oracle O2: the part of a triangle in a box, in rational arithmetic. */
-#ifndef TESTS_ORACLES_EXACT_CLIP_H
-#define TESTS_ORACLES_EXACT_CLIP_H
+#ifndef EXACT_CLIP_H
+#define EXACT_CLIP_H
 
 #include <gmp.h>
 

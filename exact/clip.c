@@ -1,4 +1,4 @@
-#include "tests/oracles/exact_clip.h"
+#include "exact/clip.h"
 
 enum { MOST = 10 };
 
