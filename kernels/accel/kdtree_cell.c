@@ -55,7 +55,7 @@ static float round_up(double x)
 static bool shrink(const corner *corners, int count, kdtree_ref *ref)
 {
     for (int axis = 0; axis < 3; axis++) {
-        double low = INFINITY, high = -INFINITY;
+        double low = HUGE_VAL, high = -HUGE_VAL;
         for (int i = 0; i < count; i++) {
             double below = corners[i].p[axis] - corners[i].margin, above = corners[i].p[axis] + corners[i].margin;
             low = below < low ? below : low;
