@@ -181,8 +181,8 @@ static void cheapest__random_boxes__none_is_cheaper(void **state)
         const kdtree_rules rules = {.min_half_area = seed % 3 == 0 ? 0.3 * kdtree_cell_half_area(&cell) : 0.0};
         for (size_t i = 0; i < count; i++)
             for (int axis = 0; axis < 3; axis++) { /* on a grid, so that bounds coincide, in every third scene */
-                double a = base_random_range(&random, cell.min[axis], cell.max[axis]);
-                double b = base_random_range(&random, a, cell.max[axis]);
+                double a = base_random_range(&random, (double)cell.min[axis], (double)cell.max[axis]);
+                double b = base_random_range(&random, a, (double)cell.max[axis]);
                 refs[i].box.min[axis] = seed % 3 == 1 ? (float)floor(a) : (float)a;
                 refs[i].box.max[axis] = seed % 3 == 1 ? (float)floor(b) : fmaxf((float)b, (float)a);
             }
