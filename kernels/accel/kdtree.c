@@ -15,7 +15,7 @@ kdtree_options kdtree_options_default(void)
         .traversal_cost = 1.0f,
         .empty_percent = 10,
         .covered_planes = 1,
-        .min_area = 1000,
+        .min_area = 100,
         .perfect_splits = 1,
         .empty_occluders = 1,
         .max_depth = KDTREE_MAX_DEPTH,

@@ -91,7 +91,7 @@ typedef struct kdtree_options {
     unsigned jobs;            /* host threads, at least 1; the tree does not depend on it */
 } kdtree_options;
 
-/** Defaults: traversal cost 1, 10 percent, min_area 1000 (1e-6), all rules on, KDTREE_MAX_DEPTH, one job. */
+/** Defaults: traversal cost 1, 10 percent, min_area 100 (1e-7), all rules on, KDTREE_MAX_DEPTH, one job. */
 kdtree_options kdtree_options_default(void);
 
 /**

@@ -2,14 +2,17 @@
  *
  *   bench_kdtree [--rules] [--repeat N] [SCENE...]
  *
- * A SCENE is what scene_open takes; without any: all built-in scenes. Rows of CSV on stdout, the best of N builds
- * (default 1) with all of the host's threads; `bytes` are those that a kernel's traversal reads: nodes, lists and
+ * A SCENE is what scene_open takes, or tube:N, a closed, finely tessellated body of about N triangles; without any: all built-in scenes. Rows of CSV on stdout, the best of N builds
+ * (default 1) with all of the host's threads, and the mean of all threads' time together; `bytes` are those that a kernel's traversal reads: nodes, lists and
  * records; `inner_ray`, `leaves_ray` and `tests_ray` are visits and triangle tests of a primary ray of the first camera, 128x128
  * of them traced one by one. With --rules also trees with one rule off or changed. Lines of '#' name the compiler and the CPU.
  */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <time.h>
 
 #include "kernels/accel/kdtree.h"
 #include "lrbni/base/parallel.h"
@@ -26,6 +29,14 @@ static int failed(const base_error *err)
     return 1;
 }
 
+/* Seconds of all threads of this process. */
+static double cpu_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 static int bench_bvh(const scene *s, int repeat)
 {
     double best = 0.0;
@@ -33,10 +44,12 @@ static int bench_bvh(const scene *s, int repeat)
     base_error err = {0};
     bvh_options options = bvh_options_default();
     options.jobs = base_parallel_jobs();
+    double cpu = cpu_seconds();
     if (measure_bvh_build(s, &options, repeat, &best, &tree, &err) != BASE_OK)
         return failed(&err);
+    cpu = (cpu_seconds() - cpu) / repeat;
     size_t bytes = tree->node_count * sizeof *tree->nodes + tree->record_count * sizeof *tree->records;
-    printf("bvh,%s,%zu,%u,%.3f,%zu,%zu,0,0,0,0,%zu,%u,%.3f,%zu,,,\n", s->name, s->triangle_count, options.jobs, best, tree->inner_count,
+    printf("bvh,%s,%zu,%u,%.3f,%.3f,%zu,%zu,0,0,0,0,%zu,%u,%.3f,%zu,,,\n", s->name, s->triangle_count, options.jobs, best, cpu, tree->inner_count,
            tree->leaf_count, tree->record_count, tree->depth, tree->sah_cost, bytes);
     fflush(stdout);
     bvh_destroy(&tree);
@@ -61,7 +74,7 @@ static kd_ray_counts trace(const scene *s, const kdtree *tree)
 
 static int bench_kdtree(const scene *s, const char *row, const kdtree_options *options, int repeat)
 {
-    double best = 0.0;
+    double best = 0.0, cpu = cpu_seconds();
     kdtree *tree = NULL;
     base_error err = {0};
     for (int i = 0; i < repeat; i++) {
@@ -73,9 +86,10 @@ static int bench_kdtree(const scene *s, const char *row, const kdtree_options *o
         best = i == 0 || seconds < best ? seconds : best;
     }
     size_t bytes = tree->node_count * sizeof *tree->nodes + tree->list_count * sizeof *tree->lists + tree->record_count * sizeof *tree->records;
+    cpu = (cpu_seconds() - cpu) / repeat;
     kd_ray_counts n = trace(s, tree);
     const double rays = SIZE * SIZE;
-    printf("%s,%s,%zu,%u,%.3f,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%u,%.3f,%zu,%.2f,%.2f,%.2f\n", row, s->name, s->triangle_count, options->jobs, best,
+    printf("%s,%s,%zu,%u,%.3f,%.3f,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%u,%.3f,%zu,%.2f,%.2f,%.2f\n", row, s->name, s->triangle_count, options->jobs, best, cpu,
            tree->inner_count, tree->leaf_count, tree->empty_count, tree->flat_count, tree->covered_count, tree->enclosed_count,
            tree->list_count, tree->depth, tree->sah_cost, bytes, (double)n.inner / rays, (double)n.leaves / rays, (double)n.tests / rays);
     fflush(stdout);
@@ -95,7 +109,7 @@ static int bench_rules(const scene *s, int repeat)
         {"kdtree/empty_percent=30", offsetof(kdtree_options, empty_percent), 30},
         {"kdtree/covered_planes=0", offsetof(kdtree_options, covered_planes), 0},
         {"kdtree/min_area=0", offsetof(kdtree_options, min_area), 0},
-        {"kdtree/min_area=100", offsetof(kdtree_options, min_area), 100},
+        {"kdtree/min_area=1000", offsetof(kdtree_options, min_area), 1000},
         {"kdtree/min_area=10000", offsetof(kdtree_options, min_area), 10000},
         {"kdtree/perfect_splits=0", offsetof(kdtree_options, perfect_splits), 0},
         {"kdtree/empty_occluders=0", offsetof(kdtree_options, empty_occluders), 0},
@@ -110,13 +124,51 @@ static int bench_rules(const scene *s, int repeat)
     return bad;
 }
 
+/* A point of a closed tube with bumps of several sizes, at shares u along and v around it. */
+static void tube_point(double u, double v, float out[3])
+{
+    const double turn = 6.283185307179586;
+    double a = turn * u, b = turn * v;
+    double ring = 3.0 + 0.8 * sin(3.0 * a), height = 1.2 * cos(2.0 * a);
+    double radius = 0.7 + 0.1 * sin(40.0 * a) * cos(7.0 * b) + 0.02 * sin(400.0 * a + 3.0 * b) * sin(50.0 * b);
+    out[0] = (float)((ring + radius * cos(b)) * cos(a));
+    out[1] = (float)(height + radius * sin(b));
+    out[2] = (float)((ring + radius * cos(b)) * sin(a));
+}
+
+static base_status add_tube(scene *s, unsigned long triangles, base_error *err)
+{
+    size_t around = (size_t)sqrt((double)triangles / 2.0) + 3, along = triangles / 2 / around + 3;
+    uint32_t material;
+    base_status status = scene_add_material(s, (scene_material){{0.5f, 0.5f, 0.5f}}, &material, err);
+    for (size_t i = 0; i < along; i++)
+        for (size_t j = 0; status == BASE_OK && j < around; j++) {
+            scene_triangle pair[2];
+            float p[4][3];
+            for (size_t k = 0; k < 4; k++)
+                tube_point((double)((i + k / 2) % along) / (double)along, (double)((j + k % 2) % around) / (double)around, p[k]);
+            for (size_t k = 0; k < 6; k++)
+                memcpy(pair[k / 3].v[k % 3], p[k < 3 ? k : 6 - k], sizeof p[0]);
+            status = scene_add_triangles(s, pair, 2, material, err);
+        }
+    return status == BASE_OK ? scene_finish(s, err) : status;
+}
+
+static base_status open_scene(const char *spec, scene **out, base_error *err)
+{
+    if (strncmp(spec, "tube:", 5) != 0)
+        return scene_open(spec, out, err);
+    base_status status = scene_create("tube", out, err);
+    return status == BASE_OK ? add_tube(*out, strtoul(spec + 5, NULL, 10), err) : status;
+}
+
 static int bench_scene(const char *spec, int repeat, int rules)
 {
     scene *s = NULL;
     base_error err = {0};
     kdtree_options options = kdtree_options_default();
     options.jobs = base_parallel_jobs();
-    if (scene_open(spec, &s, &err) != BASE_OK)
+    if (open_scene(spec, &s, &err) != BASE_OK)
         return failed(&err);
     int bad = bench_bvh(s, repeat) || bench_kdtree(s, "kdtree", &options, repeat) || (rules && bench_rules(s, repeat));
     scene_destroy(&s);
@@ -139,7 +191,7 @@ int main(int argc, char **argv)
         return 2;
     }
     measure_print_head();
-    printf("row,scene,triangles,jobs,seconds,inner,leaves,empty,flat,covered,enclosed,references,depth,sah_cost,bytes,inner_ray,leaves_ray,tests_ray\n");
+    printf("row,scene,triangles,jobs,seconds,cpu_seconds,inner,leaves,empty,flat,covered,enclosed,references,depth,sah_cost,bytes,inner_ray,leaves_ray,tests_ray\n");
     for (int i = first; i < argc; i++)
         bad |= bench_scene(argv[i], repeat, rules);
     size_t count;
@@ -149,5 +201,8 @@ int main(int argc, char **argv)
         snprintf(spec, sizeof spec, "builtin:%s", scenes[i].name);
         bad |= bench_scene(spec, repeat, rules);
     }
+    struct rusage usage;
+    if (getrusage(RUSAGE_SELF, &usage) == 0)
+        printf("# peak memory of the process: %.0f MB\n", (double)usage.ru_maxrss / 1024.0);
     return bad;
 }
