@@ -2,10 +2,12 @@
  *
  *   bench_kdtree [--rules] [--repeat N] [SCENE...]
  *
- * A SCENE is what scene_open takes, or tube:N, a closed, finely tessellated body of about N triangles; without any: all built-in scenes. Rows of CSV on stdout, the best of N builds
- * (default 1) with all of the host's threads, and the mean of all threads' time together; `bytes` are those that a kernel's traversal reads: nodes, lists and
- * records; `inner_ray`, `leaves_ray` and `tests_ray` are visits and triangle tests of a primary ray of the first camera, 128x128
- * of them traced one by one. With --rules also trees with one rule off or changed. Lines of '#' name the compiler and the CPU.
+ * A SCENE is what scene_open takes, or tube:N, a closed, finely tessellated body of about N triangles; without any: all
+ * built-in scenes. Rows of CSV on stdout: `seconds` of the best of N builds (default 1) with all of the host's threads, and
+ * `cpu_seconds` of all threads together in the mean; `bytes` are those that a kernel's traversal reads: nodes, lists and
+ * records; `inner_ray`, `leaves_ray` and `tests_ray` are visits and triangle tests of a primary ray of the first camera,
+ * 128x128 of them traced one by one. With --rules also trees with one rule off or changed. Lines of '#' name the compiler and
+ * the CPU.
  */
 #include <math.h>
 #include <stdio.h>
