@@ -15,6 +15,8 @@ static const scene_builtin builtins[] = {
     {"forest-174k", "a forest glade with a cottage: old trees, toadstools, ferns and grass on large ground", "Fairy Forest", SCENE_FOREST_TRIANGLES,
         scene_build_forest},
     {"fern-212k", "a fern of thousands of small leaflets on a forest floor", "Fern", SCENE_FERN_TRIANGLES, scene_build_fern},
+    {"conference-282k", "a conference room: an oval table with twenty chairs, armchairs, blinds, lamps and what lies about", "Conference", SCENE_CONFERENCE_TRIANGLES,
+        scene_build_conference},
 };
 
 const scene_builtin *scene_builtin_list(size_t *count)

@@ -28,6 +28,7 @@ static const struct expected {
     {"atrium-76k", 76000, UINT64_C(0x06057a9b1c1354e5), 95},
     {"forest-174k", 174000, UINT64_C(0xee40692a1fb0b1b1), 75},
     {"fern-212k", 212000, UINT64_C(0x3dd764457b5a142e), 80},
+    {"conference-282k", 282000, UINT64_C(0x677003a2b76771d5), 95},
 };
 enum { SCENES = sizeof expected / sizeof *expected };
 
