@@ -99,15 +99,13 @@ static base_status measure(suite *s, base_error *err)
     return status;
 }
 
-static const char *const scenes[] = {"builtin:rooms-804", "builtin:hall-60k", "builtin:atrium-76k", NULL};
-
 const suite_info suite_mft_prediction = {
     .name = "mft-prediction",
     .summary = "the counts that the MFT paper published through the simulated core, against its cycles",
     .title = "the MFT paper's counts through the simulated core",
     .about = "What a box test, a triangle access, an intersection test and the set-up of a pixel cost in the core model, measured on scenes of ours, times "
              "the counts that Benthin and Wald published in Table 1 (2009), against the cycles that they published. No constant is fitted to the paper.",
-    .scenes = scenes,
+    .scenes = mft_suite_scenes,
     .size = 512,
     .takes = SUITE_TAKES_ERROR,
     .measure = measure,

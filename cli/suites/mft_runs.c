@@ -1,6 +1,6 @@
 #include "cli/suites/mft_runs.h"
 
-const char *const mft_suite_scenes[] = {"builtin:hall-60k", NULL};
+const char *const mft_suite_scenes[] = {"builtin:creature-69k", "builtin:fern-212k", "builtin:hall-60k", "builtin:forest-174k", NULL};
 
 const char *mft_kernel(mft_algorithm algorithm)
 {
