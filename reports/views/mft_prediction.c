@@ -266,9 +266,9 @@ void mft_prediction_points_of(const mft_measured *m, mft_prediction_points *out)
             out->ends[0] = fmin(out->ends[0], fmin(p.published, p.predicted) / 1e6);
             out->ends[1] = fmax(out->ends[1], fmax(p.published, p.predicted) / 1e6);
         }
-        out->series[a] = (report_series){mft_algorithm_names[a], out->published[a], out->predicted[a], labels, MFT_SCENES, false};
+        out->series[a] = (report_series){mft_algorithm_names[a], out->published[a], out->predicted[a], labels, MFT_SCENES, REPORT_LINE_NONE};
     }
-    out->series[m->algorithms] = (report_series){"equal", out->ends, out->ends, NULL, 2, true};
+    out->series[m->algorithms] = (report_series){"equal", out->ends, out->ends, NULL, 2, REPORT_LINE_ALONE};
     say_reading(m, best, name);
     snprintf(out->title, sizeof out->title, "Predicted against published cycles: %s", name);
 }
