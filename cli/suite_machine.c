@@ -26,3 +26,9 @@ base_status suite_machine_create(const suite *s, const suite_change *changes, su
     }
     return status == BASE_OK ? sim_machine_check(out->machine, err) : status;
 }
+
+base_status suite_machine_one_core(const suite *s, base_error *err)
+{
+    const unsigned cores = s->options->machine->cores;
+    return cores == 1 ? BASE_OK : base_fail(err, BASE_ERR_USAGE, "cores", "suite %s looks at one core, not at %u", s->info->name, cores);
+}

@@ -31,4 +31,7 @@ typedef struct suite_machine {
 /** The suite's machine with changes, NULL for none. Errors: those of command_machine. Destroy out->machine, also after a failure. */
 base_status suite_machine_create(const suite *s, const suite_change *changes, suite_machine *out, base_error *err);
 
+/** For suites that look at one core. Errors: BASE_ERR_USAGE if the suite's machine has several. */
+base_status suite_machine_one_core(const suite *s, base_error *err);
+
 #endif

@@ -44,16 +44,6 @@ static bool put_string(FILE *out, const char *text)
     return true;
 }
 
-static bool put_axis(FILE *out, char name, const report_axis *axis)
-{
-    fprintf(out, "set %clabel ", name);
-    const bool whole = put_string(out, axis->label);
-    fprintf(out, "\nset format %c '%%g'\n", name);
-    if (axis->logarithmic)
-        fprintf(out, "set logscale %c 10\n", name);
-    return whole;
-}
-
 static bool is_visible(const report_axis *axis, double value) { return isfinite(value) && (!axis->logarithmic || value > 0); }
 
 static bool has_point(const report_plot *plot, const report_series *s, size_t i)
@@ -67,6 +57,51 @@ static bool has_points(const report_plot *plot, const report_series *s)
         if (has_point(plot, s, i))
             return true;
     return false;
+}
+
+/* Least and largest coordinate of the visible points on an axis; false if there is none. */
+static bool range_of(const report_plot *plot, const report_axis *axis, double range[2])
+{
+    bool any = false;
+    for (size_t k = 0; k < plot->series_count; k++) {
+        const report_series *s = &plot->series[k];
+        const double *at = axis == &plot->x ? s->x : s->y;
+        for (size_t i = 0; i < s->count; i++)
+            if (has_point(plot, s, i)) {
+                range[0] = any ? fmin(range[0], at[i]) : at[i];
+                range[1] = any ? fmax(range[1], at[i]) : at[i];
+                any = true;
+            }
+    }
+    return any;
+}
+
+/* A logarithmic axis of few decades gets marks at 1, 2 and 5 of each: gnuplot would name the decades alone. */
+static void put_marks(FILE *out, char name, const double range[2])
+{
+    enum { FEW_DECADES = 1000 };
+    if (range[1] / range[0] >= FEW_DECADES)
+        return;
+    const int first = (int)floor(log10(range[0])) - 1, last = (int)ceil(log10(range[1])) + 1;
+    fprintf(out, "set %ctics (", name);
+    for (int decade = first; decade <= last; decade++)
+        fprintf(out, "%s1e%d,2e%d,5e%d", decade == first ? "" : ",", decade, decade, decade);
+    fputs(")\n", out);
+}
+
+static bool put_axis(FILE *out, const report_plot *plot, char name)
+{
+    const report_axis *axis = name == 'x' ? &plot->x : &plot->y;
+    double range[2];
+    fprintf(out, "set %clabel ", name);
+    const bool whole = put_string(out, axis->label);
+    fprintf(out, "\nset format %c '%%g'\n", name);
+    if (axis->logarithmic) {
+        fprintf(out, "set logscale %c 10\n", name);
+        if (range_of(plot, axis, range))
+            put_marks(out, name, range);
+    }
+    return whole;
 }
 
 /* The points as a data block, an empty line where one is left out; the texts beside them as labels. */
@@ -92,12 +127,13 @@ static bool put_data(const report_plot *plot, size_t number, FILE *out)
 
 static bool put_series(const report_plot *plot, FILE *out)
 {
+    static const char *const styles[] = {[REPORT_LINE_NONE] = "points", [REPORT_LINE_POINTS] = "linespoints", [REPORT_LINE_ALONE] = "lines"};
     bool whole = true, first = true;
     for (size_t i = 0; i < plot->series_count; i++) {
         const report_series *s = &plot->series[i];
         if (!has_points(plot, s))
             continue;
-        fprintf(out, "%s$data%zu using 1:2 with %s linetype %zu title ", first ? "plot " : ", ", i, s->line ? "linespoints" : "points", i + 1);
+        fprintf(out, "%s$data%zu using 1:2 with %s linetype %zu title ", first ? "plot " : ", ", i, styles[s->line], i + 1);
         whole = put_string(out, s->name) && whole;
         first = false;
     }
@@ -115,7 +151,7 @@ base_status report_plot_write_script(const report_plot *plot, FILE *out, base_er
     fprintf(out, "%sset title ", head);
     bool whole = put_string(out, plot->title);
     fputc('\n', out);
-    whole = put_axis(out, 'x', &plot->x) && put_axis(out, 'y', &plot->y) && whole;
+    whole = put_axis(out, plot, 'x') && put_axis(out, plot, 'y') && whole;
     for (size_t i = 0; i < plot->series_count; i++)
         whole = put_data(plot, i, out) && whole;
     whole = put_series(plot, out) && whole;

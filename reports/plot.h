@@ -17,13 +17,20 @@ typedef struct report_axis {
     bool logarithmic;
 } report_axis;
 
+/* How the points of a series are joined, in their order. */
+typedef enum report_line {
+    REPORT_LINE_NONE,
+    REPORT_LINE_POINTS, /* a line from point to point */
+    REPORT_LINE_ALONE   /* the line without the points */
+} report_line;
+
 /* Points that belong together: one colour and one symbol, a line in the legend. */
 typedef struct report_series {
     const char *name;
     const double *x, *y;       /* `count` of each; a point that is not finite, or not above 0 on a logarithmic axis, is left out */
     const char *const *labels; /* a text beside each point, entries may be NULL; NULL: none */
     size_t count;
-    bool line; /* join the points in their order; a point that is left out parts the line */
+    report_line line; /* a point that is left out parts it */
 } report_series;
 
 typedef struct report_plot {

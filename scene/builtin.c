@@ -15,6 +15,10 @@ static const scene_builtin builtins[] = {
     {"forest-174k", "a forest glade with a cottage: old trees, toadstools, ferns and grass on large ground", "Fairy Forest", SCENE_FOREST_TRIANGLES,
         scene_build_forest},
     {"fern-212k", "a fern of thousands of small leaflets on a forest floor", "Fern", SCENE_FERN_TRIANGLES, scene_build_fern},
+    {"conference-282k", "a conference room: an oval table with twenty chairs, armchairs, blinds, lamps and what lies about", "Conference", SCENE_CONFERENCE_TRIANGLES,
+        scene_build_conference},
+    {"tower-2195k", "a building of seven storeys with furnished rooms about an open court, seen from a gallery", "Soda Hall", SCENE_TOWER_TRIANGLES,
+        scene_build_tower},
 };
 
 const scene_builtin *scene_builtin_list(size_t *count)

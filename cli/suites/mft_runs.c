@@ -1,6 +1,6 @@
 #include "cli/suites/mft_runs.h"
 
-const char *const mft_suite_scenes[] = {"builtin:hall-60k", NULL};
+const char *const mft_suite_scenes[] = {"builtin:creature-69k", "builtin:fern-212k", "builtin:hall-60k", "builtin:forest-174k", NULL};
 
 const char *mft_kernel(mft_algorithm algorithm)
 {
@@ -18,12 +18,14 @@ base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm,
 mft_row mft_row_of(const run_result *result, const char *scene_name, mft_algorithm algorithm)
 {
     const uint64_t *n = result->counts.n;
+    const sim_cycles *core = &result->core.core;
     return (mft_row){
         .scene = scene_name,
         .algorithm = algorithm,
         .pixels = (double)result->options.width * result->options.height,
         .value = {[MFT_TRIS] = (double)n[KERNEL_tri_accesses], [MFT_CULLED] = (double)n[KERNEL_tri_after_culling],
                   [MFT_AABB] = (double)n[KERNEL_aabb_tests], [MFT_ISECT] = (double)n[KERNEL_isect_tests], [MFT_CYCLES] = (double)result->cycles},
+        .memory = (double)(core->l2 + core->memory + core->misses + core->prefetches) / (double)result->core.cycles,
         .half_width = result->estimate.half_width_95,
     };
 }

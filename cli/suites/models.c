@@ -125,8 +125,8 @@ static base_status measure(suite *s, base_error *err)
 {
     measured m = {.rows = calloc(s->scene_count * kernel_count(s) * WAYS, sizeof *m.rows)};
     base_status status = m.rows ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
-    if (status == BASE_OK && s->options->machine->cores != 1)
-        status = base_fail(err, BASE_ERR_USAGE, "cores", "suite models samples one core, not %u", s->options->machine->cores);
+    if (status == BASE_OK)
+        status = suite_machine_one_core(s, err);
     for (int w = 0; status == BASE_OK && w < WAYS; w++)
         status = suite_machine_create(s, ways[w].changes, &m.machines[w], err);
     if (status == BASE_OK)

@@ -26,6 +26,7 @@ static void add_measured(report_table *t, const mft_row *row)
     for (int m = 0; m < MFT_METRICS; m++)
         report_table_add_real(t, row->value[m]);
     report_table_add_real(t, row->value[MFT_CYCLES] / row->pixels);
+    report_table_add_real(t, 100 * row->memory);
     report_table_add_real(t, row->half_width > 0 ? 100 * row->half_width : (double)NAN);
 }
 
@@ -36,6 +37,7 @@ static void add_published(report_table *t, size_t scene, mft_algorithm algorithm
     for (int m = 0; m < MFT_METRICS; m++)
         report_table_add_real(t, row.value[m]);
     report_table_add_real(t, row.value[MFT_CYCLES] / mft_paper_pixels);
+    report_table_add_missing(t);
     report_table_add_missing(t);
     report_table_add_text(t, *row.doubt ? row.doubt : NULL);
 }
@@ -73,6 +75,7 @@ report_table *mft_table1_counts(const mft_row *rows, size_t count, const char *c
     for (int m = 0; m < MFT_METRICS; m++)
         add_number(t, mft_metric_names[m], NULL, 0);
     add_number(t, "cycles per pixel", NULL, 1);
+    add_number(t, "memory", "% of cycles", 1);
     add_number(t, "95% interval", "+-%", 2);
     report_table_add_column(t, &(report_column){.name = "doubtful readings"});
     for (size_t i = 0; i < count; i++) {
@@ -87,7 +90,8 @@ report_table *mft_table1_counts(const mft_row *rows, size_t count, const char *c
     report_table_add_note(t, "Published counts are rounded to thousands, cycles to hundred thousands, and of 1024x1024 pixels. The built-in scenes stand "
                              "in for the paper's: they share the number of triangles and nothing else. Doubtful readings: the copy of the paper at hand "
                              "is damaged there, and the number was inferred or does not agree with another (reports/papers/mft_table1.csv says why).");
-    report_table_add_note(t, "Measured cycles are those of the core model, without shading for primary rays; the published ones are of the paper's own "
+    report_table_add_note(t, "Memory: cycles in which no thread issued, and the next one to issue waited for a line from beyond the first level of cache. Measured cycles "
+                             "are those of the core model, without shading for primary rays; the published ones are of the paper's own "
                              "simulator of a core, of which it tells little. AABB and intersection tests are 16-lane operations, one box or triangle each.");
     return t;
 }
@@ -149,7 +153,8 @@ static void say_row(char *text, size_t size, const mft_row *row, size_t scene)
     for (int m = 0; m < MFT_METRICS; m++)
         of[m] = row->value[m] / row->pixels / (paper.value[m] / mft_paper_pixels);
     snprintf(text, size, "%s has %.2f times the published triangle accesses a pixel, %.2f times the AABB tests, %.2f times the intersection "
-             "tests and %.2f times the cycles", mft_algorithm_names[row->algorithm], of[MFT_TRIS], of[MFT_AABB], of[MFT_ISECT], of[MFT_CYCLES]);
+             "tests and %.2f times the cycles, %.0f%% of them waiting for memory", mft_algorithm_names[row->algorithm], of[MFT_TRIS], of[MFT_AABB],
+             of[MFT_ISECT], of[MFT_CYCLES], 100 * row->memory);
 }
 
 static bool differs(double ours, double theirs) { return ours > theirs * large || theirs > ours * large; }

@@ -15,6 +15,7 @@ typedef struct mft_row {
     mft_algorithm algorithm;
     double pixels;
     double value[MFT_METRICS];
+    double memory;     /* the part of the cycles that waited for lines from beyond the first level of cache, 0..1 */
     double half_width; /* of the cycles, relative; 0: exact */
 } mft_row;
 

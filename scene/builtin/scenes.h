@@ -15,6 +15,8 @@ base_status scene_build_creature(scene *s, base_error *err);
 base_status scene_build_atrium(scene *s, base_error *err);
 base_status scene_build_forest(scene *s, base_error *err);
 base_status scene_build_fern(scene *s, base_error *err);
+base_status scene_build_conference(scene *s, base_error *err);
+base_status scene_build_tower(scene *s, base_error *err);
 
 enum {
     SCENE_ROOMS_TRIANGLES = 804,
@@ -22,7 +24,9 @@ enum {
     SCENE_CREATURE_TRIANGLES = 69000,
     SCENE_ATRIUM_TRIANGLES = 76000,
     SCENE_FOREST_TRIANGLES = 174000,
-    SCENE_FERN_TRIANGLES = 212000
+    SCENE_FERN_TRIANGLES = 212000,
+    SCENE_CONFERENCE_TRIANGLES = 282000,
+    SCENE_TOWER_TRIANGLES = 2195000
 };
 
 #endif

@@ -7,7 +7,7 @@ import sys
 from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-primary', 'models', 'mft-table1']
+SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-prediction']
 
 
 def own_scene(folder):
@@ -139,6 +139,44 @@ def mft_table1__own_scene__sampled(folder):
     assert [r['basis'] for r in tables[TABLE1]] == ['measured'] * 2 + ['published'] * 16 and tables['Where reductions differ'] == []
     fails(['report', 'mft-table1', '--error', '1.5', '--out', folder + '/no'], '--error')
     fails(['report', 'mft-table1', '--error', 'x', '--out', folder + '/no'], '--error')
+    return None
+
+
+PUBLISHED = {'T-Rex (69K tri)': (58e3, 173e3, 125e3, 19.5e6), 'Call of Juarez Saloon (60K tri)': (388e3, 204e3, 150e3, 31.5e6)}
+
+
+def mft_prediction__two_scenes__costs_times_published_counts(folder):
+    scenes, small = ['rooms-804', 'hall-60k'], ['--size', '32x32']
+    arguments = [word for scene in scenes for word in ('--scene', 'builtin:' + scene)] + small
+    tables = report(folder, 'mft-prediction', *arguments)
+    stats = [stats_of('mft-primary', '--scene', 'builtin:' + scene, *small, '--param', 'cull_backface=1', '--set', 'threads=1') for scene in scenes]
+    cost = {phase: sum(s['cycles']['by_phase'][phase] for s in stats) / sum(events(s['counts']) for s in stats) for phase, events in {
+        'setup': lambda n: 32 * 32, 'traversal': lambda n: n['aabb_tests'], 'culling': lambda n: n['tri_accesses'],
+        'intersection': lambda n: n['isect_tests']}.items()}
+    rows = {(r['group'], r['scene'], r['algorithm']): r for r in tables['Predicted and published cycles']}
+    for scene, (boxes, triangles, tests, cycles) in PUBLISHED.items():
+        row = rows[('1 thread; a test is a pair', scene, 'P-Frusta')]
+        predicted = 1024 * 1024 * cost['setup'] + 2 * boxes * cost['traversal'] + triangles * cost['culling'] + tests * cost['intersection']
+        assert row['published'] == cycles and abs(row['predicted'] / predicted - 1) < 1e-6
+        assert abs(row['error'] - 100 * (predicted / cycles - 1)) < 0.06
+        assert abs(row['AABB tests'] - 100 * 2 * boxes * cost['traversal'] / predicted) < 0.06
+    costs = {(r['machine'], r['algorithm'], r['event']): r for r in tables['What events cost']}
+    assert abs(costs[('1 thread', 'P-Frusta', 'triangle access')]['cycles'] - cost['culling']) < 0.006
+    assert all(r['least scene'] <= r['cycles'] <= r['dearest scene'] for r in costs.values())
+    summary = tables["Predicted cycles of the paper's own counts: errors by reading"]
+    assert len(summary) == 8 and len(rows) == 8 * len({(scene, algorithm) for _, scene, algorithm in rows})
+    mine = sorted(abs(r['error']) for key, r in rows.items() if key[0] == '1 thread; a test is a pair')
+    line = next(r for r in summary if r['machine'] == '1 thread' and r['an AABB test is'] == 'a pair of boxes')
+    assert abs(line['all, worst'] - mine[-1]) < 0.11 and abs(line['all, median'] - (mine[len(mine) // 2 - 1] + mine[len(mine) // 2]) / 2) < 0.11
+    fails(['report', 'mft-prediction', '--set', 'cores=2', '--out', folder + '/no'], 'cores')
+
+
+def mft_prediction__own_scene__all_forms(folder):
+    scene = own_scene(folder)
+    if unread(scene):
+        return unread(scene)
+    tables = report(folder, 'mft-prediction', '--scene', scene, '--size', '32x32', '--no-pictures', '--machine', 'knc', '--set', 'threads=2')
+    assert {r['machine'] for r in tables['What events cost']} == {'2 threads', '1 thread', '2 threads, no cache misses', '1 thread, no cache misses'}
     return None
 
 

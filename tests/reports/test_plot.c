@@ -18,7 +18,7 @@ static const double speeds[] = {1, 20.5, 300}, errors[] = {0.5, 0, 0.125};
 static const char *const texts[] = {"it's `here` $HOME", "unseen", NULL};
 static const report_series both[] = {
     {.name = "points", .x = speeds, .y = errors, .labels = texts, .count = 3},
-    {.name = "line", .x = speeds, .y = speeds, .count = 3, .line = true},
+    {.name = "line", .x = speeds, .y = speeds, .count = 3, .line = REPORT_LINE_POINTS},
 };
 static const report_plot example = {.title = "Speed\nagainst 'error'", .x = {"speed", true}, .y = {"error (%)", true}, .series = both, .series_count = 2};
 
@@ -55,6 +55,19 @@ static void script__zero_on_a_logarithmic_axis__left_out(void **state)
     script = script_of(&linear);
     assert_non_null(strstr(script, "$data0 << EOD\n1 0.5\n20.5 0\n300 0.125\nEOD\n"));
     assert_non_null(strstr(script, "unseen"));
+    free(script);
+}
+
+static void script__logarithmic_axis_of_few_decades__more_marks(void **state)
+{
+    (void)state;
+    const double near[] = {30, 40}, far[] = {30, 40000};
+    report_series series = {.name = "s", .x = near, .y = far, .count = 2, .line = REPORT_LINE_ALONE};
+    const report_plot plot = {.title = "t", .x = {"x", true}, .y = {"y", true}, .series = &series, .series_count = 1};
+    char *script = script_of(&plot);
+    assert_non_null(strstr(script, "set xtics (1e0,2e0,5e0,1e1,2e1,5e1,1e2,2e2,5e2,1e3,2e3,5e3)\n"));
+    assert_null(strstr(script, "set ytics"));
+    assert_non_null(strstr(script, " with lines linetype 1 "));
     free(script);
 }
 
@@ -183,6 +196,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(script__texts_and_axes__taken_literally),
         cmocka_unit_test(script__zero_on_a_logarithmic_axis__left_out),
+        cmocka_unit_test(script__logarithmic_axis_of_few_decades__more_marks),
         cmocka_unit_test(script__comma_locale__points),
         cmocka_unit_test(picture__example_and_its_edges__drawn),
         cmocka_unit_test(gnuplot__missing_or_failing__said_and_the_old_file_kept),

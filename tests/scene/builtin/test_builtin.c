@@ -28,6 +28,8 @@ static const struct expected {
     {"atrium-76k", 76000, UINT64_C(0x06057a9b1c1354e5), 95},
     {"forest-174k", 174000, UINT64_C(0xee40692a1fb0b1b1), 75},
     {"fern-212k", 212000, UINT64_C(0x3dd764457b5a142e), 80},
+    {"conference-282k", 282000, UINT64_C(0x677003a2b76771d5), 95},
+    {"tower-2195k", 2195000, UINT64_C(0x420920bd89beb00f), 95},
 };
 enum { SCENES = sizeof expected / sizeof *expected };
 
@@ -39,7 +41,7 @@ static size_t chosen_count;
 /* Rays a side: every ray is tried against every triangle, so fewer for large scenes. */
 static unsigned grid_of(const struct expected *e)
 {
-    return e->triangles < 100000 ? 64 : e->triangles < 1000000 ? 24 : 8;
+    return e->triangles < 100000 ? 64 : 24;
 }
 
 static scene *open_scene(const char *name)
@@ -268,7 +270,7 @@ static void light__from_what_the_camera_sees__free_and_facing_down(void **state)
             centre[k] = s->light.corner[k] + 0.5 * s->light.u[k] + 0.5 * s->light.v[k];
             assert_true(centre[k] > s->bounds_min[k] && (k == 1 || centre[k] < s->bounds_max[k]));
         }
-        unsigned grid = grid_of(chosen[i]) / 4, lit = 0, seen = 0;
+        unsigned grid = chosen[i]->triangles < 100000 ? 16 : 8, lit = 0, seen = 0;
         scene_primary_rays rays = scene_camera_rays(&s->cameras[0], grid, grid);
         for (int k = 0; k < 3; k++)
             origin[k] = (double)rays.origin[k];
