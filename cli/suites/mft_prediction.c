@@ -23,7 +23,7 @@ static mft_events events_of(const run_result *r, size_t machine, mft_algorithm a
         .machine = machine,
         .algorithm = a,
         .scene = scene_name,
-        .cycles = {[MFT_EVENT_SETUP] = (double)phase[KERNEL_PHASE_SETUP], [MFT_EVENT_AABB] = (double)phase[KERNEL_PHASE_TRAVERSAL],
+        .cycles = {[MFT_EVENT_SETUP] = (double)(phase[KERNEL_PHASE_SETUP] + phase[KERNEL_PHASE_SHADING]), [MFT_EVENT_AABB] = (double)phase[KERNEL_PHASE_TRAVERSAL],
                    [MFT_EVENT_TRI] = (double)phase[KERNEL_PHASE_CULLING], [MFT_EVENT_ISECT] = (double)phase[KERNEL_PHASE_INTERSECTION]},
         .events = {[MFT_EVENT_SETUP] = (double)r->options.width * r->options.height, [MFT_EVENT_AABB] = (double)n[KERNEL_aabb_tests],
                    [MFT_EVENT_TRI] = (double)n[KERNEL_tri_accesses], [MFT_EVENT_ISECT] = (double)n[KERNEL_isect_tests]},
