@@ -178,8 +178,9 @@ static fit least_squares(const sim_sample *s)
                  .xx = zz / determinant, .xz = -xz / determinant, .zz = xx / determinant};
 }
 
-/* By how much the i-th unit of a stratum is off the fit. The fit is drawn towards its units, by their leverage; that is made up for
- * (J. G. MacKinnon, H. White, "Some heteroskedasticity-consistent covariance matrix estimators", 1985: HC2). */
+/* By how much the i-th unit of a stratum is off the fit, as if the fit had not known it: it is drawn towards the unit by its leverage
+ * (J. G. MacKinnon, H. White, "Some heteroskedasticity-consistent covariance matrix estimators", 1985: HC3). No more than four times,
+ * where a unit has nearly all the leverage. */
 static double residual(const sim_sample *s, const stratum *h, size_t i, const fit *f)
 {
     const size_t unit = s->order[h->first + i];

@@ -4,7 +4,8 @@
  * its recording, and what the caches hold before any tile of a run can be kept and given to a core (sim_core_fill), which then
  * times that tile as if it had timed all before. The lines that come from memory say beforehand where the core will wait.
  *
- * T. F. Wenisch et al., "SMARTS", ISCA 2003, warm like this between the units that they time.
+ * R. E. Wunderlich et al., "SMARTS: accelerating microarchitecture simulation via rigorous statistical sampling", ISCA 2003, warm like
+ * this between the units that they time.
  */
 #ifndef SIM_WARM_H
 #define SIM_WARM_H
