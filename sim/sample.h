@@ -6,7 +6,7 @@
  *
  * - Stratified: units are ordered by x and cut into strata of about equal sums of x; a round draws one unit from each, at
  *   random and without putting it back, so large units, which matter most, are drawn more often.
- * - Estimated by regression (C.-E. Saerndal, B. Swensson, J. Wretman, "Model Assisted Survey Sampling", 1992, 6.4 and 7.8): b and
+ * - Estimated by regression (C.-E. Saerndal, B. Swensson, J. Wretman, "Model Assisted Survey Sampling", 1992, chapter 6): b and
  *   c by least squares, a unit of stratum h weighing N_h / n_h / x; so weighted residuals sum to zero, and the total is b times the sum of
  *   all x plus c times that of all z. Without z it is the combined ratio estimator (W. G. Cochran, "Sampling
  *   Techniques", 3rd edition, 1977, 6.11).
