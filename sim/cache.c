@@ -1,6 +1,8 @@
 #include "sim/cache.h"
 
+#include <assert.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define NO_LINE UINT64_MAX
 
@@ -36,6 +38,14 @@ void sim_cache_destroy(sim_cache **cache)
     }
     free(*cache);
     *cache = NULL;
+}
+
+void sim_cache_assign(sim_cache *to, const sim_cache *from)
+{
+    assert(to->ways == from->ways && to->sets == from->sets && to->line_bits == from->line_bits);
+    memcpy(to->lines, from->lines, from->sets * from->ways * sizeof *from->lines);
+    memcpy(to->used, from->used, from->sets * from->ways * sizeof *from->used);
+    to->uses = from->uses;
 }
 
 /* A free place, or else the one that was not used for longest. */

@@ -42,6 +42,9 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
 /** Free a cache, which may be NULL, and set the pointer to NULL. */
 void sim_cache_destroy(sim_cache **cache);
 
+/** Make a cache hold what another one of the same size, ways and lines holds. */
+void sim_cache_assign(sim_cache *to, const sim_cache *from);
+
 /** Number of the line that holds an address. */
 static inline uint64_t sim_cache_line(const sim_cache *cache, uint64_t address) { return address >> cache->line_bits; }
 
