@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NO_LINE UINT64_MAX
-
 base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_bytes, sim_cache **out, base_error *err)
 {
     if (line_bytes < 2 || line_bytes & (line_bytes - 1) || !sim_cache_fits(size_bytes, ways, line_bytes))
@@ -14,9 +12,9 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
     size_t places = size_bytes / line_bytes;
     sim_cache *cache = calloc(1, sizeof *cache);
     if (cache)
-        cache->lines = malloc(places * sizeof *cache->lines);
+        cache->lines = malloc((places + 1) * sizeof *cache->lines);
     if (cache)
-        cache->used = calloc(places, sizeof *cache->used);
+        cache->used = calloc(places + 1, sizeof *cache->used);
     if (!cache || !cache->lines || !cache->used) {
         sim_cache_destroy(&cache);
         return base_fail(err, BASE_ERR_NOMEM, "cache", "out of memory");
@@ -24,8 +22,8 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
     cache->ways = ways;
     cache->line_bits = (unsigned)__builtin_ctz(line_bytes);
     cache->sets = places / ways;
-    for (size_t i = 0; i < places; i++)
-        cache->lines[i] = NO_LINE;
+    for (size_t i = 0; i <= places; i++)
+        cache->lines[i] = SIM_NO_LINE;
     *out = cache;
     return BASE_OK;
 }
@@ -64,6 +62,6 @@ void sim_cache_evict(sim_cache *cache, uint64_t line)
     const uint64_t place = sim_cache_place(cache, line);
     if (place == UINT64_MAX)
         return;
-    cache->lines[place] = NO_LINE;
+    cache->lines[place] = SIM_NO_LINE;
     cache->used[place] = 0;
 }

@@ -14,11 +14,13 @@
 extern "C" {
 #endif
 
-/* Opaque but to the inline functions below. */
+#define SIM_NO_LINE UINT64_MAX
+
+/* Opaque but to the inline functions below and to sim/hierarchy.h. */
 typedef struct sim_cache {
     unsigned ways, line_bits;
     uint64_t sets;  /* a power of two */
-    uint64_t *lines; /* sets x ways; UINT64_MAX: a free place */
+    uint64_t *lines; /* sets x ways, and one more that is always free; SIM_NO_LINE: a free place */
     uint64_t *used;  /* by place: when it was used last; free places, never: 0 */
     uint64_t uses;
 } sim_cache;
