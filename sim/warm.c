@@ -43,8 +43,10 @@ static bool find_touches(sim_warmer *w, const sim_machine *machine)
 {
     sim_op_price *price = sim_op_prices(machine);
     w->touch = calloc((size_t)UINT16_MAX + 1, sizeof *w->touch);
-    for (size_t op = 0; price && w->touch && op <= UINT16_MAX; op++)
-        w->touch[op] = price[op].flags & (SIM_PRICE_READS | SIM_PRICE_STORE) ? ACCESS : price[op].flags & SIM_PRICE_HINT ? HINT : NOTHING;
+    for (size_t op = 0; price && w->touch && op <= UINT16_MAX; op++) {
+        const unsigned flags = price[op].flags;
+        w->touch[op] = flags & (SIM_PRICE_READS | SIM_PRICE_STORE) ? ACCESS : flags & SIM_PRICE_HINT ? HINT : NOTHING;
+    }
     free(price);
     return price && w->touch;
 }
@@ -52,7 +54,9 @@ static bool find_touches(sim_warmer *w, const sim_machine *machine)
 base_status sim_warmer_create(const sim_machine *machine, sim_warmer **out, base_error *err)
 {
     sim_warmer *w = *out = calloc(1, sizeof *w);
-    base_status status = w ? sim_contents_create(machine, &w->contents, err) : base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
+    if (!w)
+        return base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
+    base_status status = sim_contents_create(machine, &w->contents, err);
     if (status == BASE_OK) {
         w->sets = w->contents.l1->sets;
         w->line_bits = w->contents.l1->line_bits;
