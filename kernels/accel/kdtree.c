@@ -32,7 +32,8 @@ static base_status options_check(const kdtree_options *o, base_error *err)
 {
     base_status status = BASE_OK;
     if (!isfinite(o->traversal_cost) || o->traversal_cost < 0.0f)
-        return base_fail(err, BASE_ERR_USAGE, "traversal_cost", "%g is not a finite number of at least 0", (double)o->traversal_cost);
+        return base_fail(err, BASE_ERR_USAGE, "traversal_cost", "%g is not a finite number of at least 0",
+                         (double)o->traversal_cost);
     if (o->empty_percent < 1 || o->empty_percent > 100)
         return base_fail(err, BASE_ERR_USAGE, "empty_percent", "%u is not in 1..100", o->empty_percent);
     if (o->min_area > MOST_MIN_AREA)

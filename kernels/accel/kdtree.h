@@ -1,6 +1,6 @@
 /* A kd-tree as multi-level ray tracing needs it: cells without overlap, empty cells cut off early, walls in flat cells
  * of their own, and empty cells inside closed objects marked as opaque (Reshetov, Soupikov and Hurley 2005, section
- * 3.1). Built on the host, exact surface area heuristic with perfect splits (Wald and Havran 2006), not charged to
+ * 3.1; MLRTA). Built on the host, exact surface area heuristic with perfect splits (Wald and Havran 2006), not charged to
  * the simulated machine. docs/kd-tree.md.
  *
  * A node does not store its cell: the root's is `min`, `max`, and each step replaces one plane. All cells are closed. A
@@ -62,7 +62,7 @@ typedef struct kdtree {
     size_t list_count;    /* entries of lists */
     bvh_triangle *records; /* 64-byte aligned, as in the BVH; each triangle once, in the order of the first leaf that lists it */
     size_t record_count;
-    uint32_t *sizes; /* by node: itself and the nodes below it, 1 for a leaf: the complexity measure of section 4.2; nodes[1]: 0 */
+    uint32_t *sizes; /* by node: itself and the nodes below it, 1 for a leaf (nodes[1]: 0); the complexity measure of section 4.2 */
     uint32_t *components; /* by record: number of its closed component; KDTREE_OPEN: it belongs to none, or none were sought */
     kdtree_set *sets;
     size_t set_count; /* at least 1 */

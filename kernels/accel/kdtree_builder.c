@@ -159,8 +159,8 @@ static void divide_piece(void *user, size_t piece, unsigned worker)
     builder *b = user;
     size_t begin = piece * PIECE, count = size_min(PIECE, b->span->count - begin);
     (void)worker;
-    kdtree_refs_divide(&b->rules, &b->span->cell, b->split, b->span->refs + begin, count, b->halves[0] + begin, b->halves[1] + begin,
-                       b->piece_counts[piece]);
+    kdtree_refs_divide(&b->rules, &b->span->cell, b->split, b->span->refs + begin, count, b->halves[0] + begin,
+                       b->halves[1] + begin, b->piece_counts[piece]);
 }
 
 static void copy_piece(void *user, size_t piece, unsigned worker)
@@ -191,8 +191,8 @@ static base_status divide_wide(builder *b, top_node *top, kdtree_span children[2
     top->span.refs = NULL;
     for (int side = 0; side < 2; side++) {
         b->to[side] = malloc((sum[side] + 1) * sizeof(kdtree_ref));
-        children[side] = (kdtree_span){b->to[side], sum[side], kdtree_cell_half(&top->span.cell, top->split.axis, top->split.plane, side),
-                                       top->span.depth + 1};
+        kdtree_cell cell = kdtree_cell_half(&top->span.cell, top->split.axis, top->split.plane, side);
+        children[side] = (kdtree_span){b->to[side], sum[side], cell, top->span.depth + 1};
     }
     if (!b->to[0] || !b->to[1])
         return out_of_memory(err);
@@ -451,7 +451,7 @@ base_status kdtree_builder_run(const scene *s, const kdtree_options *options, kd
         return base_fail(err, BASE_ERR_INPUT, s->name, "%zu triangles are more than %zu", s->triangle_count, SCENE_MAX_TRIANGLES);
     builder b = {.scene = s, .max_depth = options->max_depth, .jobs = options->jobs, .tree = tree};
     b.rules = (kdtree_rules){
-        .scene = s,
+        .triangles = s->triangles,
         .traversal_cost = (double)options->traversal_cost,
         .empty_share = options->empty_percent / 100.0,
         .covered_planes = options->covered_planes != 0,

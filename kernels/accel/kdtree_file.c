@@ -136,7 +136,8 @@ static base_status check_length(const reader *r, const header *h)
     struct stat about;
     if (h->nodes < 2 || h->nodes % 2 != 0 || h->nodes * sizeof(kdtree_node) > UINT32_MAX || h->nodes > UINT32_MAX)
         return bad(r, "its number of nodes is impossible");
-    if (h->lists > UINT32_MAX / 4 || h->records > SCENE_MAX_TRIANGLES || h->sets < 1 || h->sets > UINT32_MAX / 4 || h->members > UINT32_MAX)
+    if (h->lists > UINT32_MAX / 4 || h->records > SCENE_MAX_TRIANGLES || h->sets < 1 || h->sets > UINT32_MAX / 4 ||
+        h->members > UINT32_MAX)
         return bad(r, "its counts are impossible");
     uint64_t length = sizeof *h + h->nodes * sizeof(kdtree_node) + h->lists * 4 + h->records * 8 + h->sets * sizeof(kdtree_set) +
                       h->members * 4 + sizeof r->hash;
@@ -190,7 +191,8 @@ static base_status check_sets(const reader *r, const kdtree *tree)
         if (set->first != members || set->count > tree->member_count - members || (set->count == 0) != (i == 0))
             return bad(r, "a set is not where it belongs");
         for (size_t k = 0; k < set->count; k++)
-            if (tree->members[members + k] >= components || (k > 0 && tree->members[members + k] <= tree->members[members + k - 1]))
+            if (tree->members[members + k] >= components ||
+                (k > 0 && tree->members[members + k] <= tree->members[members + k - 1]))
                 return bad(r, "a set is out of order");
         members += set->count;
     }
@@ -268,7 +270,8 @@ base_status kdtree_read(const char *path, const scene *s, const kdtree_options *
 
 /* ---- a folder of trees ---- */
 
-base_status kdtree_open(const scene *s, const kdtree_options *options, const char *folder, kdtree **out, base_error *note, base_error *err)
+base_status kdtree_open(const scene *s, const kdtree_options *options, const char *folder, kdtree **out, base_error *note,
+                        base_error *err)
 {
     *note = (base_error){.status = BASE_OK};
     if (!folder)

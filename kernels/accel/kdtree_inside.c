@@ -76,8 +76,8 @@ static base_status append(kdtree_inside *out, uint32_t component, uint32_t offse
     return BASE_OK;
 }
 
-static base_status cross_leaf(const kdtree *tree, const kdtree_node *leaf, const double point[3], int axis, int up, kdtree_inside *out,
-                              base_error *err)
+static base_status cross_leaf(const kdtree *tree, const kdtree_node *leaf, const double point[3], int axis, int up,
+                              kdtree_inside *out, base_error *err)
 {
     const uint32_t *list = kdtree_leaf_list(tree, leaf);
     base_status status = BASE_OK;

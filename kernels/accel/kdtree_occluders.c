@@ -101,9 +101,9 @@ static base_status list_leaves(finder *f, base_error *err)
         const kdtree_node *node = &tree->nodes[now.node];
         if (!kdtree_is_leaf(node)) {
             uint32_t child = (uint32_t)(kdtree_children(tree, node) - tree->nodes);
-            for (int side = 1; side >= 0; side--)
-                stack[used++] =
-                    (empty_leaf){kdtree_cell_half(&now.cell, (int)(node->link & KDTREE_KIND), node->split, side), child + (uint32_t)side, 0};
+            int axis = (int)(node->link & KDTREE_KIND);
+            for (uint32_t side = 2; side-- > 0;)
+                stack[used++] = (empty_leaf){kdtree_cell_half(&now.cell, axis, node->split, (int)side), child + side, 0};
         } else if (kdtree_leaf_count(node) == 0 && may_be_inside(&now.cell, &f->closed)) {
             if (!reserve((void **)&f->leaves, &f->leaf_room, f->leaf_count + 1, sizeof *f->leaves))
                 return out_of_memory(err);

@@ -25,8 +25,8 @@ static bool lies_in_plane(const scene_triangle *t, int axis, float plane)
 }
 
 /* Whether the triangles of `flat` that lie in their plane cover the cell's section there. */
-static base_status section_covered(const scene *s, const kdtree_cell *cell, int axis, const kdtree_ref *refs, const flat_ref *flat,
-                                   size_t count, bool *covered, base_error *err)
+static base_status section_covered(const scene_triangle *all, const kdtree_cell *cell, int axis, const kdtree_ref *refs,
+                                   const flat_ref *flat, size_t count, bool *covered, base_error *err)
 {
     int u = (axis + 1) % 3, v = (axis + 2) % 3;
     kdtree_rectangle section = {{(double)cell->min[u], (double)cell->min[v]}, {(double)cell->max[u], (double)cell->max[v]}};
@@ -43,7 +43,7 @@ static base_status section_covered(const scene *s, const kdtree_cell *cell, int 
     if (!triangles)
         return base_fail(err, BASE_ERR_NOMEM, "kd-tree", "out of memory");
     for (size_t i = 0; i < count; i++) {
-        const scene_triangle *t = &s->triangles[refs[flat[i].index].id];
+        const scene_triangle *t = &all[refs[flat[i].index].id];
         if (!lies_in_plane(t, axis, flat[i].plane))
             continue;
         for (int corner = 0; corner < 3; corner++) {
@@ -58,7 +58,8 @@ static base_status section_covered(const scene *s, const kdtree_cell *cell, int 
 }
 
 /* The triangles across an axis, sorted; *flat is owned by the caller, NULL if there are none. */
-static base_status collect_flat(const kdtree_ref *refs, size_t count, int axis, flat_ref **flat, size_t *flat_count, base_error *err)
+static base_status collect_flat(const kdtree_ref *refs, size_t count, int axis, flat_ref **flat, size_t *flat_count,
+                                base_error *err)
 {
     size_t found = 0;
     *flat = NULL;
@@ -79,8 +80,8 @@ static base_status collect_flat(const kdtree_ref *refs, size_t count, int axis, 
 }
 
 /* The best covered plane across one axis, if it is better than *best. */
-static base_status covered_on_axis(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_ref *refs, size_t count, int axis,
-                                   kdtree_split *best, base_error *err)
+static base_status covered_on_axis(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_ref *refs, size_t count,
+                                   int axis, kdtree_split *best, base_error *err)
 {
     flat_ref *flat;
     size_t flat_count;
@@ -89,7 +90,7 @@ static base_status covered_on_axis(const kdtree_rules *rules, const kdtree_cell 
         bool covered;
         for (end = first + 1; end < flat_count && flat[end].plane == flat[first].plane; end++)
             ;
-        status = section_covered(rules->scene, cell, axis, refs, flat + first, end - first, &covered, err);
+        status = section_covered(rules->triangles, cell, axis, refs, flat + first, end - first, &covered, err);
         if (status != BASE_OK || !covered)
             continue;
         kdtree_split split = kdtree_split_at_plane(cell, refs, count, axis, flat[first].plane);
@@ -111,8 +112,8 @@ base_status kdtree_split_covered(const kdtree_rules *rules, const kdtree_cell *c
     return status;
 }
 
-base_status kdtree_cell_covered(const scene *s, const kdtree_cell *cell, const kdtree_ref *refs, size_t count, bool *covered,
-                                base_error *err)
+base_status kdtree_cell_covered(const scene_triangle *triangles, const kdtree_cell *cell, const kdtree_ref *refs, size_t count,
+                                bool *covered, base_error *err)
 {
     int flat_axis = -1, flat_axes = 0;
     flat_ref *flat;
@@ -127,7 +128,7 @@ base_status kdtree_cell_covered(const scene *s, const kdtree_cell *cell, const k
         return BASE_OK;
     base_status status = collect_flat(refs, count, flat_axis, &flat, &flat_count, err);
     if (status == BASE_OK)
-        status = section_covered(s, cell, flat_axis, refs, flat, flat_count, covered, err);
+        status = section_covered(triangles, cell, flat_axis, refs, flat, flat_count, covered, err);
     free(flat);
     return status;
 }

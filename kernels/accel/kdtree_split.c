@@ -138,11 +138,12 @@ kdtree_split kdtree_split_empty(const kdtree_rules *rules, const kdtree_cell *ce
     double share = rules->empty_share;
     for (int axis = 0; axis < 3; axis++) {
         double length = kdtree_cell_length(cell, axis);
-        double gap[2] = {(double)around->min[axis] - (double)cell->min[axis], (double)cell->max[axis] - (double)around->max[axis]};
+        double below = (double)around->min[axis] - (double)cell->min[axis];
+        double gap[2] = {below, (double)cell->max[axis] - (double)around->max[axis]};
         for (int side = 0; side < 2; side++)
             if (length > 0.0 && share < 1.0 && gap[side] > share * length) {
                 share = gap[side] / length;
-                best = (kdtree_split){.axis = axis, .plane = side == 0 ? around->min[axis] : around->max[axis], .flat_above = side == 0};
+                best = (kdtree_split){.axis = axis, .plane = (side ? around->max : around->min)[axis], .flat_above = side == 0};
             }
     }
     return best;
@@ -190,7 +191,8 @@ kdtree_split kdtree_split_at_plane(const kdtree_cell *cell, const kdtree_ref *re
 
 /* ---- rule 3 ---- */
 
-kdtree_split kdtree_split_cheapest(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_bounds *b, size_t count, int axis)
+kdtree_split kdtree_split_cheapest(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_bounds *b, size_t count,
+                                   int axis)
 {
     kdtree_split best = {.axis = -1, .cost = HUGE_VAL};
     surfaces s = surfaces_of(cell, axis);
@@ -236,7 +238,7 @@ static bool cut_ref(const kdtree_rules *rules, const kdtree_cell *half, const kd
         out->box.min[axis] = half->min[axis];
     if (out->box.max[axis] > half->max[axis])
         out->box.max[axis] = half->max[axis];
-    return !rules->perfect_splits || kdtree_cell_clip(half, &rules->scene->triangles[ref->id], rules->margin, out);
+    return !rules->perfect_splits || kdtree_cell_clip(half, &rules->triangles[ref->id], rules->margin, out);
 }
 
 void kdtree_refs_divide(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_split *split, const kdtree_ref *refs,

@@ -12,7 +12,7 @@
 
 /* What the rules need to know, the same for the whole tree. */
 typedef struct kdtree_rules {
-    const scene *scene;
+    const scene_triangle *triangles; /* of the scene */
     double traversal_cost; /* in triangle tests */
     double empty_share;    /* rule 1: of a cell's length; 1: off */
     bool covered_planes;   /* rule 2 */
@@ -64,7 +64,8 @@ base_status kdtree_split_covered(const kdtree_rules *rules, const kdtree_cell *c
                                  kdtree_split *out, base_error *err);
 
 /** Rule 3 on one axis: the plane of least cost inside the cell, of equal ones the lowest. `bounds` are sorted. */
-kdtree_split kdtree_split_cheapest(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_bounds *bounds, size_t count, int axis);
+kdtree_split kdtree_split_cheapest(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_bounds *bounds, size_t count,
+                                   int axis);
 
 /** The cheapest of three axes, of equal ones the lowest; none if not to split costs no more. */
 kdtree_split kdtree_split_best(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_split axes[3], size_t count);
@@ -79,8 +80,8 @@ kdtree_cell kdtree_refs_around(const kdtree_ref *refs, size_t count);
  * Whether the triangles that lie in a flat cell's plane cover its rectangle. False for a cell that is not flat along exactly
  * one axis. Errors: BASE_ERR_NOMEM.
  */
-base_status kdtree_cell_covered(const scene *s, const kdtree_cell *cell, const kdtree_ref *refs, size_t count, bool *covered,
-                                base_error *err);
+base_status kdtree_cell_covered(const scene_triangle *triangles, const kdtree_cell *cell, const kdtree_ref *refs, size_t count,
+                                bool *covered, base_error *err);
 
 /**
  * Hand the references of a cell to its two children, in order.

@@ -8,6 +8,7 @@
 
 #define MOST_PAIRS ((size_t)1 << 28) /* 4 GiB */
 #define MOST_IDS ((size_t)1 << 30)   /* 4 GiB */
+#define MOST_REFS (SIZE_MAX / 64)    /* no limit but the memory's */
 
 /* A cell and where its node goes. */
 typedef struct pending {
@@ -102,7 +103,7 @@ static base_status write_leaf(build *b, const pending *p, base_error *err)
     bool covered = false;
     base_status status = reserve((void **)&out->ids, &out->id_room, out->id_count + p->count, sizeof *out->ids, MOST_IDS, err);
     if (status == BASE_OK)
-        status = kdtree_cell_covered(b->rules->scene, &p->cell, refs, p->count, &covered, err);
+        status = kdtree_cell_covered(b->rules->triangles, &p->cell, refs, p->count, &covered, err);
     if (status != BASE_OK)
         return status;
     *node_of(b, p) = (kdtree_node){
@@ -120,13 +121,14 @@ static base_status divide(build *b, const kdtree_split *split, pending *now, bas
     kdtree_worker *w = b->worker;
     kdtree_subtree *out = b->out;
     size_t counts[2], pair = 2 * out->pair_count;
-    base_status status = reserve((void **)&out->pairs, &out->pair_room, out->pair_count + 1, 2 * sizeof *out->pairs, MOST_PAIRS, err);
+    base_status status =
+        reserve((void **)&out->pairs, &out->pair_room, out->pair_count + 1, 2 * sizeof *out->pairs, MOST_PAIRS, err);
     if (status == BASE_OK)
         status = reserve_halves(w, now->count, err);
     if (status != BASE_OK)
         return status;
     kdtree_refs_divide(b->rules, &now->cell, split, w->stack + now->begin, now->count, w->halves[0], w->halves[1], counts);
-    status = reserve((void **)&w->stack, &w->stack_room, now->begin + counts[0] + counts[1], sizeof *w->stack, SIZE_MAX / 64, err);
+    status = reserve((void **)&w->stack, &w->stack_room, now->begin + counts[0] + counts[1], sizeof *w->stack, MOST_REFS, err);
     if (status != BASE_OK)
         return status;
     if (counts[1])
@@ -135,9 +137,10 @@ static base_status divide(build *b, const kdtree_split *split, pending *now, bas
         memcpy(w->stack + now->begin + counts[1], w->halves[0], counts[0] * sizeof *w->stack);
     *node_of(b, now) = (kdtree_node){.link = (uint32_t)(8 * pair) | (uint32_t)split->axis, .split = split->plane};
     out->pair_count++;
-    b->waiting[b->waiting_count++] =
-        (pending){kdtree_cell_half(&now->cell, split->axis, split->plane, 1), now->begin, counts[1], now->depth + 1, pair + 1};
-    *now = (pending){kdtree_cell_half(&now->cell, split->axis, split->plane, 0), now->begin + counts[1], counts[0], now->depth + 1, pair};
+    const kdtree_cell below = kdtree_cell_half(&now->cell, split->axis, split->plane, 0);
+    const kdtree_cell above = kdtree_cell_half(&now->cell, split->axis, split->plane, 1);
+    b->waiting[b->waiting_count++] = (pending){above, now->begin, counts[1], now->depth + 1, pair + 1};
+    *now = (pending){below, now->begin + counts[1], counts[0], now->depth + 1, pair};
     return BASE_OK;
 }
 
@@ -146,7 +149,8 @@ base_status kdtree_subtree_build(const kdtree_rules *rules, unsigned max_depth, 
 {
     build b = {.rules = rules, .max_depth = max_depth, .worker = worker, .out = out};
     pending now = {span->cell, 0, span->count, span->depth, ROOT};
-    base_status status = reserve((void **)&worker->stack, &worker->stack_room, span->count, sizeof *worker->stack, SIZE_MAX / 64, err);
+    base_status status =
+        reserve((void **)&worker->stack, &worker->stack_room, span->count, sizeof *worker->stack, MOST_REFS, err);
     if (status == BASE_OK && span->count)
         memcpy(worker->stack, span->refs, span->count * sizeof *worker->stack);
     while (status == BASE_OK) {

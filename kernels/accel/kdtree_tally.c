@@ -40,7 +40,8 @@ static const char *visit_inner(walk *w, const visit *v, visit children[2])
     if (!(node->split >= v->cell.min[axis] && node->split <= v->cell.max[axis]))
         return "a plane lies outside its cell";
     for (int side = 0; side < 2; side++)
-        children[side] = (visit){kdtree_cell_half(&v->cell, (int)axis, node->split, side), 2 * w->pairs + (size_t)side, v->depth + 1};
+        children[side] =
+            (visit){kdtree_cell_half(&v->cell, (int)axis, node->split, side), 2 * w->pairs + (size_t)side, v->depth + 1};
     w->cost += kdtree_cell_half_area(&v->cell) * (double)w->options->traversal_cost;
     return NULL;
 }

@@ -160,7 +160,8 @@ static void kdtree__any_number_of_jobs__same_bytes(void **state)
 static void kdtree__seeded_scenes__bytes_are_the_stored_ones(void **state)
 {
     static const uint64_t stored[] = {0xfadb2117222a88d9, 0x6baa80624416fce0, 0xa014d60ba609d2e9, 0x7406da40b18eb44c};
-    scene scenes[] = {soup_random(21, 3000, 0.1), soup_clustered(22, 2000), soup_coplanar(23, 500), soup_placed(24, 500, 1e7f, 3e5f)};
+    scene scenes[] = {soup_random(21, 3000, 0.1), soup_clustered(22, 2000), soup_coplanar(23, 500),
+                      soup_placed(24, 500, 1e7f, 3e5f)};
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         kdtree_options options = kdtree_options_default();
@@ -176,7 +177,7 @@ static void kdtree__seeded_scenes__bytes_are_the_stored_ones(void **state)
 
 static void kdtree__option_out_of_range__usage_error_names_it(void **state)
 {
-    static const char *const names[] = {"traversal_cost", "traversal_cost", "empty_percent", "empty_percent", "min_area",
+    static const char *const names[] = {"traversal_cost", "traversal_cost", "empty_percent",  "empty_percent",  "min_area",
                                         "max_depth",      "jobs",           "covered_planes", "perfect_splits", "empty_occluders"};
     scene s = soup_random(1, 10, 0.1);
     (void)state;

@@ -64,10 +64,12 @@ static int largest_axis(const scene_triangle *t)
 static size_t check_tree(const scene *s, const kdtree_options *options)
 {
     const double everywhere[3] = {1e30, 1e30, 1e30}, nowhere[3] = {-1e30, -1e30, -1e30};
-    sums sum = {.scene = s, .area = malloc(s->triangle_count * sizeof *sum.area), .axis = malloc(s->triangle_count * sizeof *sum.axis)};
+    sums sum = {.scene = s};
     kdtree *tree = NULL;
     mpq_t whole;
     mpq_init(whole);
+    sum.area = malloc(s->triangle_count * sizeof *sum.area);
+    sum.axis = malloc(s->triangle_count * sizeof *sum.axis);
     assert_true(sum.area && sum.axis);
     assert_int_equal(kdtree_build(s, options, &tree, NULL), BASE_OK);
     for (size_t i = 0; i < s->triangle_count; i++) {

@@ -98,8 +98,8 @@ static void file__other_scene_or_options__refused(void **state)
     for (int i = 0; i < 8; i++) {
         kdtree_options other = options;
         base_error err = {0};
-        unsigned *fields[] = {&other.empty_percent, &other.covered_planes, &other.min_area, &other.perfect_splits, &other.empty_occluders,
-                              &other.max_depth};
+        unsigned *fields[] = {&other.empty_percent,  &other.covered_planes,  &other.min_area,
+                              &other.perfect_splits, &other.empty_occluders, &other.max_depth};
         if (i < 6)
             *fields[i] ^= 1;
         other.traversal_cost += i == 6 ? 0.5f : 0.0f;

@@ -99,7 +99,8 @@ static double winding(const shapes *s, size_t shape, const double point[3])
         for (int axis = 0; axis < 3; axis++) {
             int b = (axis + 1) % 3, c = (axis + 2) % 3;
             det += v[0][axis] * (v[1][b] * v[2][c] - v[1][c] * v[2][b]);
-            dots += v[0][axis] * v[1][axis] * length[2] + v[1][axis] * v[2][axis] * length[0] + v[2][axis] * v[0][axis] * length[1];
+            dots += v[0][axis] * v[1][axis] * length[2] + v[1][axis] * v[2][axis] * length[0];
+            dots += v[2][axis] * v[0][axis] * length[1];
         }
         sum += 2.0 * atan2(det, dots);
     }

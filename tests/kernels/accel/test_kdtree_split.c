@@ -320,14 +320,14 @@ static void planes__wall_with_a_hole_or_two_on_one_side__not_covered(void **stat
         if (i >= 4)
             refs[i].box = (kdtree_cell){{0, 1.5f, 0}, {4, 1.5f, 3}};
     }
-    const kdtree_rules rules = {.scene = &s, .covered_planes = true};
+    const kdtree_rules rules = {.triangles = s.triangles, .covered_planes = true};
     assert_int_equal(kdtree_split_covered(&rules, &cell, refs, 8, &split, NULL), BASE_OK);
     assert_int_equal(split.axis, -1);
     put_wall(&s.triangles[6], 1, 1.5f, 3, 0, 4, 4); /* the rest of it */
     refs[6].box = refs[7].box = (kdtree_cell){{0, 1.5f, 3}, {4, 1.5f, 4}};
     assert_int_equal(kdtree_split_covered(&rules, &cell, refs, 8, &split, NULL), BASE_OK);
     assert_true(split.axis == 1 && split.plane == 1.5f && !split.flat_above);
-    const kdtree_rules off = {.scene = &s, .covered_planes = false};
+    const kdtree_rules off = {.triangles = s.triangles, .covered_planes = false};
     assert_int_equal(kdtree_split_covered(&off, &cell, refs, 8, &split, NULL), BASE_OK);
     assert_int_equal(split.axis, -1);
     soup_free(&s);
@@ -346,7 +346,7 @@ static void planes__on_a_face__flat_child_takes_them(void **state)
                 refs[i].box.min[2] = refs[i].box.max[2] = side ? 4.0f : 0.0f;
         }
         const kdtree_cell cell = {{0, 0, 0}, {4, 4, 4}};
-        const kdtree_rules rules = {.scene = &s, .covered_planes = true};
+        const kdtree_rules rules = {.triangles = s.triangles, .covered_planes = true};
         kdtree_split split;
         kdtree_ref below[3], above[3];
         size_t counts[2];
