@@ -6,7 +6,7 @@ import sys
 from program import fails, gltf, main, run, unread
 
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-primary']
+SUITES = ['mft-primary', 'stability']
 
 
 def own_scene(folder):
