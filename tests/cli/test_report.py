@@ -7,7 +7,7 @@ import sys
 from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-prediction']
+SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-prediction', 'stability']
 
 
 def own_scene(folder):
