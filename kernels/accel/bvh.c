@@ -2,7 +2,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "kernels/accel/box.h"
 #include "kernels/accel/bvh_builder.h"
 #include "kernels/accel/bvh_split.h"
 
@@ -75,6 +77,26 @@ base_status bvh_build(const scene *s, const bvh_options *options, bvh **out, bas
     tree->sah_cost = expected_cost(tree, options);
     *out = tree;
     return BASE_OK;
+}
+
+/* The normal of a record, scaled so that neither tiny nor huge triangles leave the range of float. */
+static void write_normal(const scene_triangle *t, float normal[3])
+{
+    double n[3];
+    accel_triangle_normal(t, n);
+    double largest = fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2])));
+    for (int axis = 0; axis < 3; axis++)
+        normal[axis] = (float)(n[axis] / largest);
+}
+
+bvh_triangle bvh_triangle_create(const scene_triangle *t, uint32_t id)
+{
+    bvh_triangle record = {.id = id};
+    memcpy(record.v0, t->v[0], sizeof record.v0);
+    memcpy(record.v1, t->v[1], sizeof record.v1);
+    memcpy(record.v2, t->v[2], sizeof record.v2);
+    write_normal(t, record.normal);
+    return record;
 }
 
 void bvh_destroy(bvh **tree)

@@ -78,6 +78,9 @@ bvh_options bvh_options_default(void);
  */
 base_status bvh_build(const scene *s, const bvh_options *options, bvh **out, base_error *err);
 
+/** The record of a triangle that is not degenerate (kernels/accel/box.h). */
+bvh_triangle bvh_triangle_create(const scene_triangle *t, uint32_t id);
+
 /** Free a tree; sets the pointer to NULL. */
 void bvh_destroy(bvh **tree);
 

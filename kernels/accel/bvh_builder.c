@@ -292,16 +292,6 @@ static base_status build_top(builder *b, accel_box box, base_error *err)
 
 /* ---- 3. subtrees ---- */
 
-/* The normal of a record, scaled so that neither tiny nor huge triangles leave the range of float. */
-static void write_normal(const scene_triangle *t, float normal[3])
-{
-    double n[3];
-    accel_triangle_normal(t, n);
-    double largest = fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2])));
-    for (int axis = 0; axis < 3; axis++)
-        normal[axis] = (float)(n[axis] / largest);
-}
-
 /* Write a leaf: the records of the list, which is in the order of ids. */
 static void write_leaf(const builder *b, const span *list, bvh_node *node)
 {
@@ -312,13 +302,7 @@ static void write_leaf(const builder *b, const span *list, bvh_node *node)
     node->count = (uint32_t)list->count;
     for (size_t i = 0; i < list->count; i++) {
         uint32_t id = bvh_ref_id(&refs[i]);
-        const scene_triangle *t = &b->scene->triangles[id];
-        bvh_triangle record = {.id = id};
-        memcpy(record.v0, t->v[0], sizeof record.v0);
-        memcpy(record.v1, t->v[1], sizeof record.v1);
-        memcpy(record.v2, t->v[2], sizeof record.v2);
-        write_normal(t, record.normal);
-        records[i] = record;
+        records[i] = bvh_triangle_create(&b->scene->triangles[id], id);
     }
 }
 

@@ -13,58 +13,11 @@
 
 #include "kernels/accel/bvh.h"
 #include "lrbni/base/random.h"
+#include "tests/kernels/accel/single_ray.h"
 #include "tests/kernels/accel/soup.h"
 
-#define NO_HIT UINT32_MAX
-
-typedef struct ray {
-    double o[3], d[3];
-} ray;
-
-typedef struct hit {
-    double t;
-    uint32_t id;
-} hit;
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-/* Moeller and Trumbore in double, both faces; on equal t the smaller id wins. */
-static void test_triangle(const ray *r, float v[3][3], uint32_t id, hit *h)
-{
-    double e1[3], e2[3], s[3], p[3], q[3];
-    for (int a = 0; a < 3; a++) {
-        e1[a] = (double)v[1][a] - (double)v[0][a];
-        e2[a] = (double)v[2][a] - (double)v[0][a];
-        s[a] = r->o[a] - (double)v[0][a];
-    }
-    cross(r->d, e2, p);
-    cross(s, e1, q);
-    double det = dot(e1, p);
-    double u = dot(s, p) / det, w = dot(r->d, q) / det, t = dot(e2, q) / det;
-    if (det != 0.0 && u >= 0.0 && w >= 0.0 && u + w <= 1.0 && t > 0.0 && (t < h->t || (t == h->t && id < h->id)))
-        *h = (hit){t, id};
-}
-
-static hit brute_force(const scene *s, const ray *r)
-{
-    hit h = {HUGE_VAL, NO_HIT};
-    for (size_t i = 0; i < s->triangle_count; i++)
-        test_triangle(r, s->triangles[i].v, (uint32_t)i, &h);
-    return h;
-}
-
 /* Closed slabs, widened by far more than the rounding of test_triangle. */
-static int meets_box(const ray *r, const bvh_node *node)
+static int meets_box(const single_ray *r, const bvh_node *node)
 {
     double in = 0.0, out = HUGE_VAL;
     for (int a = 0; a < 3; a++) {
@@ -77,12 +30,12 @@ static int meets_box(const ray *r, const bvh_node *node)
     return in <= out * (1 + 1e-9);
 }
 
-static hit traverse(const bvh *tree, const ray *r, size_t *tests)
+static single_hit traverse(const bvh *tree, const single_ray *r, size_t *tests)
 {
     const char *nodes = (const char *)tree->nodes, *records = (const char *)tree->records;
     const bvh_node *stack[BVH_MAX_DEPTH + 1];
     size_t used = 0;
-    hit h = {HUGE_VAL, NO_HIT};
+    single_hit h = {HUGE_VAL, SINGLE_NO_HIT};
     stack[used++] = tree->nodes;
     while (used > 0) {
         const bvh_node *node = stack[--used];
@@ -97,11 +50,7 @@ static hit traverse(const bvh *tree, const ray *r, size_t *tests)
         }
         const bvh_triangle *record = (const bvh_triangle *)(records + node->link);
         for (uint32_t i = 0; i < node->count; i++, record++) {
-            float v[3][3];
-            memcpy(v[0], record->v0, sizeof v[0]);
-            memcpy(v[1], record->v1, sizeof v[1]);
-            memcpy(v[2], record->v2, sizeof v[2]);
-            test_triangle(r, v, record->id, &h);
+            single_ray_record(r, record, &h);
             ++*tests;
         }
     }
@@ -118,15 +67,15 @@ static void compare_hits(scene s, double reach, size_t one_in)
     size_t hits = 0, tests = 0;
     assert_int_equal(bvh_build(&s, &options, &tree, NULL), BASE_OK);
     for (int i = 0; i < RAYS; i++) {
-        ray r;
+        single_ray r;
         for (int a = 0; a < 3; a++) {
             r.o[a] = base_random_range(&random, -reach, reach);
             r.d[a] = base_random_range(&random, -reach, reach) - r.o[a];
         }
-        hit expected = brute_force(&s, &r), found = traverse(tree, &r, &tests);
+        single_hit expected = single_ray_brute_force(&s, &r), found = traverse(tree, &r, &tests);
         assert_int_equal(found.id, expected.id);
         assert_true(found.t == expected.t);
-        hits += found.id != NO_HIT;
+        hits += found.id != SINGLE_NO_HIT;
     }
     assert_true(hits * one_in >= RAYS);
     assert_true(tests < (size_t)RAYS * s.triangle_count / 4);
@@ -169,14 +118,14 @@ static void bvh_use__far_from_the_origin__hits_of_brute_force(void **state)
     size_t hits = 0, tests = 0;
     assert_int_equal(bvh_build(&s, &options, &tree, NULL), BASE_OK);
     for (int i = 0; i < 400; i++) {
-        ray r;
+        single_ray r;
         for (int a = 0; a < 3; a++) {
             r.o[a] = base_random_range(&random, 4076.0, 4116.0);
             r.d[a] = base_random_range(&random, 4084.0, 4108.0) - r.o[a];
         }
-        hit expected = brute_force(&s, &r), found = traverse(tree, &r, &tests);
+        single_hit expected = single_ray_brute_force(&s, &r), found = traverse(tree, &r, &tests);
         assert_int_equal(found.id, expected.id);
-        hits += found.id != NO_HIT;
+        hits += found.id != SINGLE_NO_HIT;
     }
     assert_true(hits > 100);
     bvh_destroy(&tree);
