@@ -15,13 +15,21 @@ enum { RATIO_DECIMALS = 6, UNITS_PREFIX = sizeof units_prefix - 1 };
 
 static json_t *integer(uint64_t value) { return json_integer((json_int_t)value); }
 
-static json_t *params_json(const kernel_params *params)
+/* The parameters that the kernel takes. */
+static json_t *params_json(const kernel_info *kernel, const kernel_params *params)
 {
     size_t count;
     const kernel_param_info *table = kernel_param_list(&count);
     json_t *object = json_object();
-    for (size_t i = 0; i < count; i++)
-        json_object_set_new(object, table[i].name, integer(*(const unsigned *)((const char *)params + table[i].offset)));
+    for (size_t i = 0; i < count; i++) {
+        unsigned value = kernel_param_get(params, &table[i]);
+        if (kernel->params >> i & 1)
+            json_object_set_new(object, table[i].name, table[i].values ? json_string(table[i].values[value]) : integer(value));
+    }
+    if (params->samples) {
+        json_object_set_new(object, "samples", integer(params->samples));
+        json_object_set_new(object, "light_scale", report_json_real(params->light_scale, RATIO_DECIMALS));
+    }
     return object;
 }
 
@@ -59,7 +67,7 @@ json_t *identity_json(const run_result *r)
     json_object_set_new(image, "width", integer(r->options.width));
     json_object_set_new(image, "height", integer(r->options.height));
     json_object_set_new(object, "kernel", json_string(r->options.kernel->name));
-    json_object_set_new(object, "params", params_json(&r->options.params));
+    json_object_set_new(object, "params", params_json(r->options.kernel, &r->options.params));
     json_object_set_new(object, "scene", scene_json(r));
     json_object_set_new(object, "image", image);
     return object;
@@ -184,6 +192,8 @@ static base_status read_run(const char *path, json_t *head, identity *out, base_
         return status;
     out->json = json_pack("{s:O, s:O, s:O, s:O}", "kernel", kernel, "params", params, "scene", place, "image", image);
     out->kernel.name = json_string_value(kernel);
+    const kernel_info *known = kernel_find(out->kernel.name);
+    out->kernel.phases = known ? known->phases : UINT64_MAX;
     out->scene_name = json_string_value(name);
     return out->json ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, path, "out of memory");
 }

@@ -22,7 +22,7 @@ typedef struct identity {
     json_t *json;          /* as identity_json; owned */
     const char *scene_name; /* belongs to json */
     unsigned triangles;
-    kernel_info kernel;    /* its name, which belongs to json, and its counters; nothing else */
+    kernel_info kernel;    /* its name, which belongs to json, its counters and phases; nothing else */
     kernel_counts counts;
     unsigned width, height;
 } identity;

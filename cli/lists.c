@@ -73,11 +73,16 @@ int command_kernels(int argc, char **argv)
     report_table *t = report_table_create("Kernels");
     add_columns(t, (const char *const[]){"name", "what it is", "source", "parameters", NULL});
     for (size_t i = 0; i < count; i++) {
-        char text[160];
+        char text[256];
         size_t length = 0;
-        for (size_t j = 0; j < params; j++)
-            length += (size_t)snprintf(text + length, sizeof text - length, "%s%s=%u", j ? " " : "", param[j].name,
-                                       *(const unsigned *)((const char *)&kernels[i].defaults + param[j].offset));
+        for (size_t j = 0; j < params; j++) {
+            unsigned value = kernel_param_get(&kernels[i].defaults, &param[j]);
+            if (!(kernels[i].params >> j & 1))
+                continue;
+            length += (size_t)snprintf(text + length, sizeof text - length, "%s%s=", length ? " " : "", param[j].name);
+            length += param[j].values ? (size_t)snprintf(text + length, sizeof text - length, "%s", param[j].values[value])
+                                      : (size_t)snprintf(text + length, sizeof text - length, "%u", value);
+        }
         report_table_begin_row(t);
         report_table_add_text(t, kernels[i].name);
         report_table_add_text(t, kernels[i].summary);
@@ -85,8 +90,15 @@ int command_kernels(int argc, char **argv)
         report_table_add_text(t, text);
     }
     for (size_t j = 0; j < params; j++) {
-        char text[160];
-        snprintf(text, sizeof text, "%s, %u to %u: %s.", param[j].name, param[j].min, param[j].max, param[j].sentence);
+        char text[256];
+        size_t length = (size_t)snprintf(text, sizeof text, "%s, ", param[j].name);
+        if (param[j].values)
+            for (unsigned v = param[j].min; v <= param[j].max; v++)
+                length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", param[j].values[v],
+                                           v + 2 < param[j].max + 1 ? ", " : v < param[j].max ? " or " : "");
+        else
+            length += (size_t)snprintf(text + length, sizeof text - length, "%u to %u", param[j].min, param[j].max);
+        snprintf(text + length, sizeof text - length, ": %s.", param[j].sentence);
         report_table_add_note(t, text);
     }
     return write_list(t, a.json, &err);

@@ -19,8 +19,8 @@ static void normalise(double v[3])
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Lambert's law at a hit, for the light's point and for a weaker light at the camera. */
-static double brightness(const run_result *r, uint32_t id, double t, const double direction[3])
+/* Lambert's law at a hit, for the light's point as far as it is seen and for a weaker light at the camera. */
+static double brightness(const run_result *r, uint32_t id, double t, const double direction[3], double visibility)
 {
     const scene_triangle *tri = &r->scene->triangles[id];
     double n[3], e[3], f[3], to_light[3], view[3] = {direction[0], direction[1], direction[2]};
@@ -36,8 +36,14 @@ static double brightness(const run_result *r, uint32_t id, double t, const doubl
     normalise(to_light);
     normalise(view);
     double facing = dot(n, view) < 0 ? 1 : -1; /* the side that is seen is the side that is lit */
-    double direct = fmax(0, facing * dot(n, to_light));
+    double direct = visibility * fmax(0, facing * dot(n, to_light));
     return (double)ambient + (double)headlight * fabs(dot(n, view)) + (1.0 - (double)ambient - (double)headlight) * direct;
+}
+
+/* The fraction of the light that a pixel's hit sees, 1 for kernels without shadows. */
+static double visibility(const kernel_job *job, job_pixel p)
+{
+    return job->shadows_host ? (double)job->shadows_host[p.tile].visibility[p.block][p.pixel] : 1;
 }
 
 base_status picture_shaded(const run_result *r, report_image *out, base_error *err)
@@ -55,7 +61,7 @@ base_status picture_shaded(const run_result *r, report_image *out, base_error *e
             for (int axis = 0; axis < 3; axis++)
                 d[axis] = (double)direction[axis];
             if (id != JOB_NO_HIT)
-                light = brightness(r, id, (double)tile->t[p.block][p.pixel], d);
+                light = brightness(r, id, (double)tile->t[p.block][p.pixel], d, visibility(r->job, p));
             for (int channel = 0; channel < 3; channel++)
                 pixel[channel] = id == JOB_NO_HIT ? background
                                                   : (float)light * r->scene->materials[r->scene->triangle_material[id]].base_color[channel];
@@ -66,11 +72,11 @@ base_status picture_shaded(const run_result *r, report_image *out, base_error *e
 base_status picture_write_aov(const run_result *r, const char *path, base_error *err)
 {
     const size_t width = r->options.width, pixels = width * r->options.height;
-    float *planes = malloc(3 * pixels * sizeof *planes);
+    float *planes = malloc(4 * pixels * sizeof *planes);
     uint32_t *prim = malloc(pixels * sizeof *prim);
     base_status status = BASE_ERR_NOMEM;
     if (planes && prim) {
-        float *z = planes, *u = planes + pixels, *v = planes + 2 * pixels;
+        float *z = planes, *u = planes + pixels, *v = planes + 2 * pixels, *seen = planes + 3 * pixels;
         for (size_t i = 0; i < pixels; i++) {
             job_pixel p = kernel_job_pixel(r->job, (unsigned)(i % width), (unsigned)(i / width));
             const job_frame_tile *tile = &r->job->frame_host[p.tile];
@@ -78,14 +84,16 @@ base_status picture_write_aov(const run_result *r, const char *path, base_error 
             u[i] = tile->u[p.block][p.pixel];
             v[i] = tile->v[p.block][p.pixel];
             prim[i] = tile->id[p.block][p.pixel];
+            seen[i] = (float)visibility(r->job, p);
         }
         const report_channel channels[] = {
             {"Z", REPORT_CHANNEL_FLOAT, z},
             {"prim", REPORT_CHANNEL_UINT, prim},
             {"U", REPORT_CHANNEL_FLOAT, u},
             {"V", REPORT_CHANNEL_FLOAT, v},
+            {"visibility", REPORT_CHANNEL_FLOAT, seen},
         };
-        status = report_aov_write(path, (int)width, (int)r->options.height, channels, 4, err);
+        status = report_aov_write(path, (int)width, (int)r->options.height, channels, r->job->shadows_host ? 5 : 4, err);
     } else {
         base_fail(err, status, path, "out of memory for %zu pixels", pixels);
     }

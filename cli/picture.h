@@ -6,14 +6,14 @@
 #include "reports/image.h"
 
 /**
- * The scene as the run's rays hit it: base colours, Lambert's law for a point light at the light's centre, no shadows,
- * and a little light from the camera so that nothing is black; what is missed is a pale grey.
+ * The scene as the run's rays hit it: base colours, Lambert's law for a point light at the light's centre, times
+ * the visibility of kernels with shadows, and a little light from the camera so that nothing is black; what is missed is a pale grey.
  *
  * Errors: BASE_ERR_NOMEM.
  */
 base_status picture_shaded(const run_result *result, report_image *out, base_error *err);
 
-/** Write Z, prim, U, V (docs/interface.md) as an EXR file. */
+/** Write Z, prim, U, V and, of kernels with shadows, visibility (docs/interface.md) as an EXR file. */
 base_status picture_write_aov(const run_result *result, const char *path, base_error *err);
 
 /**

@@ -33,6 +33,8 @@ json_t *registers_json(const run_result *r)
     for (int file = 0; file < SIM_FILES; file++) {
         json_t *phases = json_object();
         for (int phase = 0; phase < KERNEL_PHASE_COUNT; phase++) {
+            if (!(r->options.kernel->phases >> phase & 1))
+                continue;
             const sim_pressure *p = &r->registers.pressure[phase][file];
             json_t *numbers = json_object();
             json_object_set_new(numbers, "max", json_integer((json_int_t)p->max));
@@ -61,6 +63,8 @@ report_table *registers_table(const run_result *r)
         snprintf(text, sizeof text, registers ? "%s, %u registers" : "%s", sim_file_names[file], registers);
         report_table_begin_group(t, text);
         for (int phase = 0; phase < KERNEL_PHASE_COUNT; phase++) {
+            if (!(r->options.kernel->phases >> phase & 1))
+                continue;
             const sim_pressure *p = &r->registers.pressure[phase][file];
             report_table_begin_row(t);
             report_table_add_text(t, kernel_phase_names[phase]);

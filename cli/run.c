@@ -313,7 +313,7 @@ base_status run_kernel(const scene *s, const sim_machine *machine, const run_opt
     status = bvh_build(s, &tree_options, &out->tree, err);
     out->build_seconds = clock_seconds() - start;
     if (status == BASE_OK)
-        status = kernel_job_create(out->tree, out->camera, options->width, options->height, &options->params, &out->job, err);
+        status = kernel_job_create(out->tree, out->camera, &s->light, options->width, options->height, &options->params, &out->job, err);
     if (status == BASE_OK)
         status = trace(out, err);
     return status;

@@ -26,7 +26,7 @@ static const struct argp_option option_table[] = {
     {"camera", KEY_CAMERA, "N", 0, "index or name of the camera in the file; default: the first, or one framing the bounds", 1},
     {"size", KEY_SIZE, "WxH", 0, "image size in pixels; default 1024x1024", 1},
     {"light-scale", KEY_LIGHT_SCALE, "F", 0, "scale the light's edges about its centre; default 1", 1},
-    {"samples", KEY_SAMPLES, "N", 0, "shadow rays per pixel of soft-shadow kernels (none in this version); default 16", 1},
+    {"samples", KEY_SAMPLES, "N", 0, "shadow rays per pixel of the soft-shadow kernels: 4, 16, 64, 256, 1024 or 4096; default 16", 1},
     {"model", KEY_MODEL, "M", 0, "native, count, issue or core: how much of the machine is modelled; default core", 2},
     {"machine", KEY_MACHINE, "M", 0, "a machine (see lanetrace machines), or a description's path; default larrabee", 2},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a field of the machine; repeatable", 2},
@@ -39,7 +39,7 @@ static const struct argp_option option_table[] = {
     {"callgrind", KEY_CALLGRIND, "FILE", 0, "cycles by line for KCachegrind and callgrind_annotate", 3},
     {"registers", KEY_REGISTERS, NULL, 0, "the registers that the kernel needs, and what spills would cost, among the statistics", 3},
     {"image", KEY_IMAGE, "FILE", 0, "the rendered picture, in any format that OpenImageIO writes", 3},
-    {"aov", KEY_AOV, "FILE.exr", 0, "per-pixel results: Z, prim, U, V", 3},
+    {"aov", KEY_AOV, "FILE.exr", 0, "per-pixel results: Z, prim, U, V, with shadows also visibility", 3},
     {"heatmap", KEY_HEATMAP, "FILE", 0, "simulated cycles per pixel, as a picture", 3},
     {"heatmap-of", KEY_HEATMAP_OF, "COUNTER", 0, "make --heatmap of a counter instead, as aabb_tests", 3},
     {"trace", KEY_TRACE, "FILE.ltr", 0, "record the event stream, for lanetrace replay", 3},
@@ -98,7 +98,7 @@ typedef struct plan {
     run_options run;
     sim_machine *machine;
     scene *scene;
-    double light_scale, load_seconds;
+    double load_seconds;
     kernel_counter heat_counter; /* KERNEL_COUNTER_COUNT: cycles */
 } plan;
 
@@ -112,19 +112,31 @@ static base_status find_counter(const kernel_info *kernel, const char *name, ker
     return base_fail(err, BASE_ERR_USAGE, "--heatmap-of", "kernel %s has no counter '%s'", kernel->name, name);
 }
 
+/* Only kernels that trace shadow rays have a number of them. */
+static base_status plan_samples(const char *text, plan *p, base_error *err)
+{
+    unsigned long samples;
+    base_status status = command_number("--samples", text, 1, 4096, &samples, err);
+    if (status == BASE_OK)
+        status = kernel_params_check_samples(samples, err);
+    if (status == BASE_OK && p->run.params.samples == 0)
+        return base_fail(err, BASE_ERR_USAGE, "--samples", "kernel %s traces no shadow rays", p->run.kernel->name);
+    p->run.params.samples = (unsigned)samples;
+    return status;
+}
+
 static base_status plan_numbers(const arguments *a, plan *p, base_error *err)
 {
     unsigned long number;
     base_status status = BASE_OK;
-    p->light_scale = 1;
     p->run.width = p->run.height = 1024;
     p->run.jobs = base_parallel_jobs();
     if (a->size)
         status = command_size(a->size, &p->run.width, &p->run.height, err);
     if (status == BASE_OK && a->samples)
-        status = command_number("--samples", a->samples, 1, 1 << 16, &number, err);
+        status = plan_samples(a->samples, p, err);
     if (status == BASE_OK && a->light_scale)
-        status = command_real("--light-scale", a->light_scale, 0, 1e6, &p->light_scale, err);
+        status = command_real("--light-scale", a->light_scale, 0, 1e6, &p->run.params.light_scale, err);
     if (status == BASE_OK && a->error)
         status = command_real("--error", a->error, 0, 1, &p->run.error, err);
     if (status == BASE_OK && a->jobs) {
@@ -199,7 +211,7 @@ static base_status make_plan(const arguments *a, plan *p, base_error *err)
         return status;
     p->run.params = p->run.kernel->defaults;
     for (size_t i = 0; status == BASE_OK && i < a->params.count; i++)
-        status = kernel_params_set(&p->run.params, a->params.items[i], err);
+        status = kernel_params_set(&p->run.params, p->run.kernel->params, a->params.items[i], err);
     if (status == BASE_OK)
         status = plan_numbers(a, p, err);
     p->run.model = RUN_CORE;
@@ -305,8 +317,6 @@ static base_status run_plan(const arguments *a, plan *p, base_error *err)
     p->load_seconds = clock_seconds() - start;
     if (status != BASE_OK)
         return status;
-    if (p->light_scale != 1)
-        scene_light_scale(&p->scene->light, p->light_scale);
     status = run_kernel(p->scene, p->machine, &p->run, &result, err);
     if (status == BASE_OK)
         status = write_results(a, p, &result, err);

@@ -110,7 +110,7 @@ static base_status record_to(const arguments *a, const plan *p, const char *path
         return status;
     run.params = run.kernel->defaults;
     for (size_t i = 0; status == BASE_OK && i < a->params.count; i++)
-        status = kernel_params_set(&run.params, a->params.items[i], err);
+        status = kernel_params_set(&run.params, run.kernel->params, a->params.items[i], err);
     if (status == BASE_OK && a->size)
         status = command_size(a->size, &run.width, &run.height, err);
     if (status == BASE_OK)

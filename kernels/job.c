@@ -1,44 +1,10 @@
 #include "kernels/job.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const kernel_param_info param_table[] = {
-    {"cull_backface", 0, 1, "1: triangles are hit from their front side only", offsetof(kernel_params, cull_backface)},
-    {"max_leaf", 1, 64, "most triangles in a leaf of the BVH", offsetof(kernel_params, max_leaf)},
-    {"bins", 2, 64, "bins per axis of the BVH builder", offsetof(kernel_params, bins)},
-};
-
-const kernel_param_info *kernel_param_list(size_t *count)
-{
-    *count = sizeof param_table / sizeof *param_table;
-    return param_table;
-}
-
-base_status kernel_params_set(kernel_params *params, const char *assignment, base_error *err)
-{
-    size_t count, length = strcspn(assignment, "=");
-    const kernel_param_info *table = kernel_param_list(&count);
-    if (assignment[length] != '=')
-        return base_fail(err, BASE_ERR_USAGE, "--param", "'%s' is not KEY=VALUE", assignment);
-    for (size_t i = 0; i < count; i++) {
-        if (strlen(table[i].name) != length || strncmp(table[i].name, assignment, length) != 0)
-            continue;
-        const char *text = assignment + length + 1;
-        char *end;
-        errno = 0;
-        unsigned long value = strtoul(text, &end, 10);
-        if (*text < '0' || *text > '9' || *end || errno || value < table[i].min || value > table[i].max)
-            return base_fail(err, BASE_ERR_USAGE, "--param", "%s: '%s' is not a whole number in %u..%u", table[i].name, text,
-                             table[i].min, table[i].max);
-        *(unsigned *)((char *)params + table[i].offset) = (unsigned)value;
-        return BASE_OK;
-    }
-    return base_fail(err, BASE_ERR_USAGE, "--param", "no parameter '%.*s' (there are cull_backface, max_leaf, bins)", (int)length,
-                     assignment);
-}
+#include "kernels/job_shadow.h"
 
 /* Relative widening of directions for box tests: 256 units in the last place (kernels/slab16.h says why). */
 static const float slack_relative = 0x1p-16f;
@@ -77,6 +43,7 @@ static void direction_bounds(job_constants *k, const scene_primary_rays *rays, u
 static void fill_constants(kernel_job *job, const scene_primary_rays *rays)
 {
     job_constants *k = job->constants_host;
+    memset(k, 0, sizeof *k);
     for (int i = 0; i < 16; i++) {
         int axis = i & 3;
         k->origin_box[i] = axis < 3 ? rays->origin[axis] : 0.0f;
@@ -130,10 +97,17 @@ static base_status map_segments(kernel_job *job, base_error *err)
     if (status == BASE_OK)
         status = lrb_memory_map(&memory, "triangle records", job->tree->records,
                                 job->tree->record_count * sizeof *job->tree->records, &job->records, err);
+    if (status != BASE_OK || job->sample_passes == 0)
+        return status;
+    status = lrb_memory_map(&memory, "light samples", job->samples_host, job->samples.size, &job->samples, err);
+    if (status == BASE_OK)
+        status = lrb_memory_map(&memory, "normals", job->normals_host, job->normals.size, &job->normals, err);
+    if (status == BASE_OK)
+        status = lrb_memory_map(&memory, "shadows", job->shadows_host, job->shadows.size, &job->shadows, err);
     return status;
 }
 
-base_status kernel_job_create(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height,
+base_status kernel_job_create(const bvh *tree, const scene_camera *camera, const scene_light *light, unsigned width, unsigned height,
                               const kernel_params *params, kernel_job **out, base_error *err)
 {
     if (width < 1 || height < 1 || width > JOB_MAX_SIZE || height > JOB_MAX_SIZE)
@@ -160,7 +134,9 @@ base_status kernel_job_create(const bvh *tree, const scene_camera *camera, unsig
     scene_primary_rays rays = scene_camera_rays(camera, width, height);
     fill_constants(job, &rays);
     fill_tiles(job);
-    base_status status = map_segments(job, err);
+    base_status status = job_shadow_create(job, light, err);
+    if (status == BASE_OK)
+        status = map_segments(job, err);
     if (status != BASE_OK)
         kernel_job_destroy(&job);
     *out = job;
@@ -173,6 +149,7 @@ void kernel_job_destroy(kernel_job **job)
         free((*job)->constants_host);
         free((*job)->tiles_host);
         free((*job)->frame_host);
+        job_shadow_destroy(*job);
         free(*job);
     }
     *job = NULL;

@@ -9,9 +9,11 @@
 #include <stdint.h>
 
 #include "kernels/accel/bvh.h"
+#include "kernels/params.h"
 #include "lrbni/base/status.h"
 #include "lrbni/memory.h"
 #include "scene/camera.h"
+#include "scene/light.h"
 #include "scene/scene.h"
 
 #define JOB_TILE_PIXELS 16u /* edge of a tile */
@@ -19,26 +21,30 @@
 
 #define JOB_NO_HIT UINT32_MAX
 
-/* Parameters of the kernels, set with --param. */
-typedef struct kernel_params {
-    unsigned cull_backface; /* 1: triangles are hit from their front only */
-    unsigned max_leaf;      /* triangles in a leaf of the BVH, at most */
-    unsigned bins;          /* of the BVH builder, per axis */
-} kernel_params;
+/* The light and what shadow rays need besides (kernels/shadow16.h). Lengths are those of the scene. */
+typedef struct job_light {
+    float corner[3], u[3], v[3], uv[3]; /* of the parallelogram; uv = u + v */
+    float normal[3];                    /* u x v as the scene gave them, at unit length: the light shines to this side */
+    float point[3];                     /* of the light for shading and for hard shadows */
+    float lift;                         /* a shadow ray starts this far above its surface */
+    float nearest, farthest;            /* a hit blocks if its distance is between these; the light is at 1 */
+    float slack, reach, guard;          /* as in job_constants, for directions of length 1 */
+    float share;                        /* of a sample in the visibility */
+    float one;
+} job_light;
 
-/* One row of the table of parameters. */
-typedef struct kernel_param_info {
-    const char *name;
-    unsigned min, max;
-    const char *sentence;
-    size_t offset; /* of the field in kernel_params */
-} kernel_param_info;
+/* A set of 16 samples of the light, in lanes; 512 bytes. */
+typedef struct job_sample_set {
+    float delta[3][16];   /* by axis: a*u + b*v */
+    float a[16], b[16];
+    float pad[3][16];
+} job_sample_set;
 
-/** The parameters that kernels take; *count rows. */
-const kernel_param_info *kernel_param_list(size_t *count);
-
-/** Set one parameter from `KEY=VALUE`. Errors: BASE_ERR_USAGE naming the parameter (unknown, not a number, range). */
-base_status kernel_params_set(kernel_params *params, const char *assignment, base_error *err);
+/* Shadows of a tile, by block and pixel. */
+typedef struct job_shadow_tile {
+    uint32_t occlusion[16][16]; /* bit j: sample j of the pixel's last set is blocked, or is not taken */
+    float visibility[16][16];   /* the fraction of the light that is seen, by all sets */
+} job_shadow_tile;
 
 /* What the kernels read besides the tree: offsets are those of the simulated machine. 64-byte aligned vectors first. */
 typedef struct job_constants {
@@ -55,6 +61,7 @@ typedef struct job_constants {
     float tiny, minus_tiny;    /* smallest magnitude of a direction whose reciprocal is formed */
     float guard;               /* factor of the rounding error of corner tests (kernels/mft/corner_cull.h) */
     uint32_t no_hit;
+    job_light light;
 } job_constants;
 
 /* One tile, 64 bytes. */
@@ -80,9 +87,15 @@ typedef struct kernel_job {
     uint32_t root_link, root_count; /* of the tree's root node */
     uint32_t record_count;          /* 0: nothing to hit */
     lrb_segment nodes, records, constants, tiles, frame;
+    unsigned sample_passes;         /* sets of samples that a pixel uses one after another; 0: no shadow rays */
+    uint32_t sample_mask;           /* samples of a set that are taken */
+    lrb_segment samples, normals, shadows; /* these and their host memory: only if there are shadow rays */
     job_constants *constants_host; /* the segments' host memory; owned */
     job_tile *tiles_host;
     job_frame_tile *frame_host;
+    job_sample_set *samples_host;
+    float (*normals_host)[4]; /* unit normals by triangle id, the fourth float 0 */
+    job_shadow_tile *shadows_host;
     const bvh *tree; /* not owned: must outlive the job */
 } kernel_job;
 
@@ -90,12 +103,13 @@ typedef struct kernel_job {
  * Lay out a job.
  *
  * @param tree    owned by the caller, who keeps it as long as the job
+ * @param light   of the scene, not scaled; NULL only for a kernel that uses none
  * @param out     free with kernel_job_destroy
  *
  * Errors: BASE_ERR_USAGE for an image size of 0 or beyond JOB_MAX_SIZE, BASE_ERR_INPUT if the simulated memory cannot
  * hold it, BASE_ERR_NOMEM.
  */
-base_status kernel_job_create(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height,
+base_status kernel_job_create(const bvh *tree, const scene_camera *camera, const scene_light *light, unsigned width, unsigned height,
                               const kernel_params *params, kernel_job **out, base_error *err);
 
 /** Free a job; sets the pointer to NULL. */

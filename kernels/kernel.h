@@ -22,6 +22,8 @@ typedef struct kernel_info {
     const char *paper;         /* section that it follows */
     kernel_params defaults;
     uint64_t counters;         /* bit i: counter i is reported */
+    uint64_t params;           /* bit i: kernel_param i is taken */
+    uint64_t phases;           /* bit i: kernel_phase i is part of it */
     kernel_tile_fn *tile[LRB_LEVELS]; /* by level */
     kernel_tile_fn *annotated; /* LRB_RECORD, with more markers (lrbni/annotate.h) */
 } kernel_info;
@@ -38,6 +40,7 @@ typedef enum kernel_phase {
     KERNEL_PHASE_TRAVERSAL,    /* box tests, stack */
     KERNEL_PHASE_CULLING,      /* triangles against frusta, back faces */
     KERNEL_PHASE_INTERSECTION, /* triangles against rays, hit records */
+    KERNEL_PHASE_SHADING,      /* hit points, what light they could see and how much of it they do */
     KERNEL_PHASE_COUNT
 } kernel_phase;
 
@@ -46,7 +49,8 @@ extern const char *const kernel_phase_names[KERNEL_PHASE_COUNT];
 
 /* Numbers of the source files, for branches and lines in events (LRB_SOURCE; kernels/sources.h has the files). */
 enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, KERNEL_SOURCE_CORNER_CULL, KERNEL_SOURCE_PACKET16, KERNEL_SOURCE_MFT,
-       KERNEL_SOURCE_RAYS };
+       KERNEL_SOURCE_RAYS, KERNEL_SOURCE_PACKET16_PRIMARY, KERNEL_SOURCE_MFT_PRIMARY, KERNEL_SOURCE_SHADOW, KERNEL_SOURCE_PACKET16_SOFT,
+       KERNEL_SOURCE_LANE_CULL, KERNEL_SOURCE_MFT_SHRINK, KERNEL_SOURCE_MFT_SOFT };
 
 /* The name of a tile function at the level that is being compiled: mft_primary_count. */
 #if defined(LRB_LEVEL) && LRB_LEVEL == 0

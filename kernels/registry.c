@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection"};
+const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection", "shading"};
 
 /* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count, mft_primary_record and mft_primary_annotated */
 #define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record, name##_annotated
@@ -11,6 +11,11 @@ KERNEL_TILES(mft_primary);
 #undef KERNEL_TILES
 
 #define BIT(counter) (UINT64_C(1) << KERNEL_##counter)
+#define PARAM(row) (UINT64_C(1) << KERNEL_PARAM_##row)
+
+static const uint64_t tracing_params = PARAM(CULL_BACKFACE) | PARAM(MAX_LEAF) | PARAM(BINS);
+static const uint64_t tracing_phases = UINT64_C(1) << KERNEL_PHASE_SETUP | UINT64_C(1) << KERNEL_PHASE_TRAVERSAL |
+                                       UINT64_C(1) << KERNEL_PHASE_CULLING | UINT64_C(1) << KERNEL_PHASE_INTERSECTION;
 
 static const uint64_t tracing_counters = BIT(rays) | BIT(rays_primary) | BIT(tri_accesses) | BIT(tri_after_culling) |
                                          BIT(aabb_tests) | BIT(isect_tests) | BIT(traversed_cells) | BIT(traversed_inner) |
@@ -24,8 +29,10 @@ const kernel_info *kernel_list(size_t *count)
             .name = "packet16-primary",
             .summary = "primary rays in 4x4 packets through a deep BVH: the MFT paper's reference",
             .paper = "Benthin and Wald 2009, 5: P-Packet",
-            .defaults = {.cull_backface = 0, .max_leaf = 2, .bins = 16},
+            .defaults = {.cull_backface = 0, .max_leaf = 2, .bins = 16, .light_scale = 1},
             .counters = tracing_counters | BIT(units_packets),
+            .params = tracing_params,
+            .phases = tracing_phases,
             .tile = {packet16_primary_native, packet16_primary_count, packet16_primary_record},
             .annotated = packet16_primary_annotated,
         },
@@ -33,8 +40,10 @@ const kernel_info *kernel_list(size_t *count)
             .name = "mft-primary",
             .summary = "primary rays in groups of 16 frusta of 4x4 through a shallow BVH: multi-frusta tracing",
             .paper = "Benthin and Wald 2009, 4 and appendix A: P-Frusta",
-            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16},
+            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16, .light_scale = 1},
             .counters = tracing_counters | BIT(units_groups) | BIT(units_frusta),
+            .params = tracing_params,
+            .phases = tracing_phases,
             .tile = {mft_primary_native, mft_primary_count, mft_primary_record},
             .annotated = mft_primary_annotated,
         },

@@ -183,7 +183,7 @@ static void stream__every_event__sources_and_addresses_valid(void **state)
         kernel_job *job = NULL;
         lrb_ctx *c = NULL;
         kernel_counts n = {{0}};
-        assert_int_equal(kernel_job_create(f->tree[kernel], &f->s->cameras[0], SIZE, SIZE, &info->defaults, &job, NULL), BASE_OK);
+        assert_int_equal(kernel_job_create(f->tree[kernel], &f->s->cameras[0], NULL, SIZE, SIZE, &info->defaults, &job, NULL), BASE_OK);
         stream_check s = {.job = job};
         assert_int_equal(lrb_ctx_create(check_events, &s, &c, NULL), BASE_OK);
         for (uint32_t tile = 0; tile < kernel_job_tiles(job); tile++) {
@@ -210,7 +210,7 @@ static void tiles__any_order__same_results(void **state)
         lrb_ctx *c = NULL;
         assert_int_equal(lrb_ctx_create(NULL, NULL, &c, NULL), BASE_OK);
         for (int turn = 0; turn < 2; turn++) {
-            assert_int_equal(kernel_job_create(f->tree[kernel], &f->s->cameras[0], SIZE, SIZE, &info->defaults, &job[turn], NULL), BASE_OK);
+            assert_int_equal(kernel_job_create(f->tree[kernel], &f->s->cameras[0], NULL, SIZE, SIZE, &info->defaults, &job[turn], NULL), BASE_OK);
             memset(job[turn]->frame_host, 0xa5, job[turn]->frame.size);
             uint32_t tiles = kernel_job_tiles(job[turn]);
             for (uint32_t i = 0; i < tiles; i++) {

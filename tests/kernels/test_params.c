@@ -18,13 +18,13 @@ static void params_set__known_keys__fields_set(void **state)
 {
     kernel_params p = {0};
     (void)state;
-    assert_int_equal(kernel_params_set(&p, "cull_backface=1", NULL), BASE_OK);
-    assert_int_equal(kernel_params_set(&p, "max_leaf=64", NULL), BASE_OK);
-    assert_int_equal(kernel_params_set(&p, "bins=2", NULL), BASE_OK);
+    assert_int_equal(kernel_params_set(&p, UINT64_MAX, "cull_backface=1", NULL), BASE_OK);
+    assert_int_equal(kernel_params_set(&p, UINT64_MAX, "max_leaf=64", NULL), BASE_OK);
+    assert_int_equal(kernel_params_set(&p, UINT64_MAX, "bins=2", NULL), BASE_OK);
     assert_int_equal(p.cull_backface, 1);
     assert_int_equal(p.max_leaf, 64);
     assert_int_equal(p.bins, 2);
-    assert_int_equal(kernel_params_set(&p, "cull_backface=0", NULL), BASE_OK);
+    assert_int_equal(kernel_params_set(&p, UINT64_MAX, "cull_backface=0", NULL), BASE_OK);
     assert_int_equal(p.cull_backface, 0);
 }
 
@@ -38,20 +38,71 @@ static void params_set__every_listed_key__its_limits_hold(void **state)
         kernel_params p = {0}, before;
         char text[64];
         unsigned ends[2] = {list[i].min, list[i].max};
+        if (list[i].values)
+            continue;
         for (int k = 0; k < 2; k++) {
             snprintf(text, sizeof text, "%s=%u", list[i].name, ends[k]);
-            assert_int_equal(kernel_params_set(&p, text, NULL), BASE_OK);
+            assert_int_equal(kernel_params_set(&p, UINT64_MAX, text, NULL), BASE_OK);
             assert_int_equal(*(unsigned *)((char *)&p + list[i].offset), ends[k]);
         }
         before = p;
         snprintf(text, sizeof text, "%s=%u", list[i].name, list[i].max + 1);
-        assert_int_equal(kernel_params_set(&p, text, NULL), BASE_ERR_USAGE);
+        assert_int_equal(kernel_params_set(&p, UINT64_MAX, text, NULL), BASE_ERR_USAGE);
         if (list[i].min > 0) {
             snprintf(text, sizeof text, "%s=%u", list[i].name, list[i].min - 1);
-            assert_int_equal(kernel_params_set(&p, text, NULL), BASE_ERR_USAGE);
+            assert_int_equal(kernel_params_set(&p, UINT64_MAX, text, NULL), BASE_ERR_USAGE);
         }
         assert_memory_equal(&p, &before, sizeof p);
         assert_true(strlen(list[i].sentence) > 0);
+    }
+}
+
+static void params_set__named_values__every_name_taken(void **state)
+{
+    size_t count;
+    const kernel_param_info *list = kernel_param_list(&count);
+    (void)state;
+    for (size_t i = 0; i < count; i++)
+        for (unsigned value = list[i].min; list[i].values && value <= list[i].max; value++) {
+            kernel_params p = {0};
+            char text[64];
+            snprintf(text, sizeof text, "%s=%s", list[i].name, list[i].values[value]);
+            assert_int_equal(kernel_params_set(&p, UINT64_MAX, text, NULL), BASE_OK);
+            assert_int_equal(kernel_param_get(&p, &list[i]), value);
+        }
+}
+
+static void params_set__no_such_value__names_listed(void **state)
+{
+    kernel_params p = {.shrink = KERNEL_SHRINK_RAYS};
+    base_error err = {0};
+    (void)state;
+    static const char *bad[] = {"shrink=", "shrink=1", "shrink=NONE", "shrink=frust", "shrink=frustaa"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(kernel_params_set(&p, UINT64_MAX, bad[i], &err), BASE_ERR_USAGE);
+        assert_non_null(strstr(err.why, "none, corner-rays, frusta, ray-aabb"));
+        assert_int_equal(p.shrink, KERNEL_SHRINK_RAYS);
+    }
+}
+
+/* What a kernel does not take is refused as if it were not there. */
+static void params_set__not_taken__usage_error(void **state)
+{
+    const kernel_info *primary = kernel_find("mft-primary");
+    kernel_params p = {0};
+    base_error err = {0};
+    (void)state;
+    assert_int_equal(kernel_params_set(&p, primary->params, "shrink=none", &err), BASE_ERR_USAGE);
+    assert_null(strstr(err.why, "shrink,"));
+    assert_non_null(strstr(err.why, "(there are cull_backface, max_leaf, bins)"));
+}
+
+static void check_samples__powers_of_four__taken(void **state)
+{
+    (void)state;
+    for (unsigned long n = 0; n < 20000; n++) {
+        int power = n == 4 || n == 16 || n == 64 || n == 256 || n == 1024 || n == 4096;
+        assert_int_equal(kernel_params_check_samples(n, NULL), power ? BASE_OK : BASE_ERR_USAGE);
     }
 }
 
@@ -65,7 +116,7 @@ static void params_set__malformed__usage_error_and_unchanged(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         base_error err = {0};
-        if (kernel_params_set(&p, bad[i], &err) != BASE_ERR_USAGE)
+        if (kernel_params_set(&p, UINT64_MAX, bad[i], &err) != BASE_ERR_USAGE)
             fail_msg("'%s' was not refused", bad[i]);
         assert_memory_equal(&p, &before, sizeof p);
         assert_int_equal(err.status, BASE_ERR_USAGE);
@@ -79,10 +130,10 @@ static void params_set__errors__name_the_parameter(void **state)
     kernel_params p = {0};
     base_error err = {0};
     (void)state;
-    kernel_params_set(&p, "max_leaf=65", &err);
+    kernel_params_set(&p, UINT64_MAX, "max_leaf=65", &err);
     assert_non_null(strstr(err.why, "max_leaf"));
     assert_non_null(strstr(err.why, "1..64"));
-    kernel_params_set(&p, "speed=65", &err);
+    kernel_params_set(&p, UINT64_MAX, "speed=65", &err);
     assert_non_null(strstr(err.why, "speed"));
     assert_null(strstr(err.why, "speed=65"));
 }
@@ -95,7 +146,7 @@ static void params_set__unknown_key__all_keys_listed(void **state)
     size_t count;
     const kernel_param_info *list = kernel_param_list(&count);
     (void)state;
-    kernel_params_set(&p, "speed=65", &err);
+    kernel_params_set(&p, UINT64_MAX, "speed=65", &err);
     for (size_t i = 0; i < count; i++)
         if (!strstr(err.why, list[i].name))
             fail_msg("'%s' is not in '%s'", list[i].name, err.why);
@@ -119,7 +170,7 @@ static void job_create__size_out_of_range__usage_error(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         kernel_job *job = NULL;
         base_error err = {0};
-        assert_int_equal(kernel_job_create(tree, &camera, sizes[i][0], sizes[i][1], &params, &job, &err), BASE_ERR_USAGE);
+        assert_int_equal(kernel_job_create(tree, &camera, NULL, sizes[i][0], sizes[i][1], &params, &job, &err), BASE_ERR_USAGE);
         assert_null(job);
         assert_string_equal(err.what, "--size");
     }
@@ -136,7 +187,7 @@ static void job_create__largest_edge__laid_out(void **state)
     kernel_job *job = NULL;
     base_error err = {0};
     (void)state;
-    assert_int_equal(kernel_job_create(tree, &camera, JOB_MAX_SIZE, 1, &params, &job, &err), BASE_OK);
+    assert_int_equal(kernel_job_create(tree, &camera, NULL, JOB_MAX_SIZE, 1, &params, &job, &err), BASE_OK);
     assert_int_equal(kernel_job_tiles(job), JOB_MAX_SIZE / JOB_TILE_PIXELS);
     kernel_job_destroy(&job);
     assert_null(job);
@@ -155,7 +206,7 @@ static void job__odd_size__every_pixel_has_one_place(void **state)
     kernel_params params = kernel_find("mft-primary")->defaults;
     kernel_job *job = NULL;
     (void)state;
-    assert_int_equal(kernel_job_create(tree, &camera, W, H, &params, &job, NULL), BASE_OK);
+    assert_int_equal(kernel_job_create(tree, &camera, NULL, W, H, &params, &job, NULL), BASE_OK);
     unsigned char seen[6 * 256] = {0};
     assert_int_equal(kernel_job_tiles(job), 6);
     for (unsigned y = 0; y < H; y++)
@@ -245,6 +296,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(params_set__known_keys__fields_set),
         cmocka_unit_test(params_set__every_listed_key__its_limits_hold),
+        cmocka_unit_test(params_set__named_values__every_name_taken),
+        cmocka_unit_test(params_set__no_such_value__names_listed),
+        cmocka_unit_test(params_set__not_taken__usage_error),
+        cmocka_unit_test(check_samples__powers_of_four__taken),
         cmocka_unit_test(params_set__malformed__usage_error_and_unchanged),
         cmocka_unit_test(params_set__errors__name_the_parameter),
         cmocka_unit_test(params_set__unknown_key__all_keys_listed),

@@ -78,6 +78,10 @@ static void gather_pixels(const kernel_job *job, trace_picture *picture)
             picture->t[i] = tile->t[p.block][p.pixel];
             picture->u[i] = tile->u[p.block][p.pixel];
             picture->v[i] = tile->v[p.block][p.pixel];
+            if (!job->shadows_host)
+                continue;
+            picture->occlusion[i] = job->shadows_host[p.tile].occlusion[p.block][p.pixel];
+            picture->visibility[i] = job->shadows_host[p.tile].visibility[p.block][p.pixel];
         }
 }
 
@@ -98,7 +102,9 @@ static trace_picture picture_create(unsigned width, unsigned height)
     p.t = calloc(p.pixels, sizeof *p.t);
     p.u = calloc(p.pixels, sizeof *p.u);
     p.v = calloc(p.pixels, sizeof *p.v);
-    assert_true(p.id && p.t && p.u && p.v);
+    p.occlusion = calloc(p.pixels, sizeof *p.occlusion);
+    p.visibility = calloc(p.pixels, sizeof *p.visibility);
+    assert_true(p.id && p.t && p.u && p.v && p.occlusion && p.visibility);
     return p;
 }
 
@@ -108,9 +114,9 @@ static kernel_job *job_create(const trace_request *request)
     base_error err = {0};
     kernel_job *job = NULL;
     assert_non_null(kernel);
-    kernel_params params = kernel->defaults;
+    kernel_params params = request->params ? *request->params : kernel->defaults;
     params.cull_backface = request->cull;
-    if (kernel_job_create(request->tree, request->camera, request->width, request->height, &params, &job, &err) != BASE_OK)
+    if (kernel_job_create(request->tree, request->camera, request->light, request->width, request->height, &params, &job, &err) != BASE_OK)
         fail_msg("%s: %s", err.what, err.why);
     return job;
 }
@@ -144,6 +150,8 @@ void trace_free(trace_picture *picture)
     free(picture->t);
     free(picture->u);
     free(picture->v);
+    free(picture->occlusion);
+    free(picture->visibility);
     *picture = (trace_picture){0};
 }
 
@@ -187,7 +195,8 @@ oracle_hit trace_hit(const trace_picture *picture, size_t pixel)
 static int pixel_equal(const trace_picture *a, const trace_picture *b, size_t i)
 {
     return a->id[i] == b->id[i] && memcmp(&a->t[i], &b->t[i], 4) == 0 && memcmp(&a->u[i], &b->u[i], 4) == 0 &&
-           memcmp(&a->v[i], &b->v[i], 4) == 0;
+           memcmp(&a->v[i], &b->v[i], 4) == 0 && a->occlusion[i] == b->occlusion[i] &&
+           memcmp(&a->visibility[i], &b->visibility[i], 4) == 0;
 }
 
 trace_difference trace_compare(const trace_picture *a, const trace_picture *b)
@@ -207,9 +216,9 @@ void trace_assert_equal(const trace_picture *a, const trace_picture *b, const ch
     trace_difference d = trace_compare(a, b);
     size_t i = d.first;
     if (d.count)
-        fail_msg("%s: %zu of %zu pixels differ, first (%zu,%zu): id %u t %a u %a v %a against id %u t %a u %a v %a", what, d.count,
-                 a->pixels, i % a->width, i / a->width, a->id[i], (double)a->t[i], (double)a->u[i], (double)a->v[i], b->id[i],
-                 (double)b->t[i], (double)b->u[i], (double)b->v[i]);
+        fail_msg("%s: %zu of %zu pixels differ, first (%zu,%zu): id %u t %a u %a v %a blocked %x against id %u t %a u %a v %a blocked %x",
+                 what, d.count, a->pixels, i % a->width, i / a->width, a->id[i], (double)a->t[i], (double)a->u[i], (double)a->v[i],
+                 a->occlusion[i], b->id[i], (double)b->t[i], (double)b->u[i], (double)b->v[i], b->occlusion[i]);
 }
 
 uint64_t trace_hash(const trace_picture *picture)
@@ -217,5 +226,9 @@ uint64_t trace_hash(const trace_picture *picture)
     uint64_t hash = base_hash(BASE_HASH_START, picture->id, picture->pixels * sizeof *picture->id);
     hash = base_hash(hash, picture->t, picture->pixels * sizeof *picture->t);
     hash = base_hash(hash, picture->u, picture->pixels * sizeof *picture->u);
-    return base_hash(hash, picture->v, picture->pixels * sizeof *picture->v);
+    hash = base_hash(hash, picture->v, picture->pixels * sizeof *picture->v);
+    if (!picture->counts.n[KERNEL_rays_shadow])
+        return hash;
+    hash = base_hash(hash, picture->occlusion, picture->pixels * sizeof *picture->occlusion);
+    return base_hash(hash, picture->visibility, picture->pixels * sizeof *picture->visibility);
 }

@@ -13,6 +13,8 @@ typedef struct trace_picture {
     size_t pixels;   /* width * height */
     uint32_t *id;    /* pixels each, row by row from the top left; owned */
     float *t, *u, *v;
+    uint32_t *occlusion; /* of kernels that trace shadows, else 0: bits of the last set of samples... */
+    float *visibility;   /* ...and what is seen of the light */
     kernel_counts counts;
     uint64_t ops[LRB_OP_COUNT]; /* COUNT: the context's histogram; RECORD: that of the events; NATIVE: 0 */
     uint64_t idle_lanes;        /* likewise */
@@ -27,6 +29,8 @@ typedef struct trace_request {
     const scene_camera *camera;
     unsigned width, height;
     unsigned cull; /* parameter cull_backface */
+    const kernel_params *params; /* the others; NULL: the kernel's defaults */
+    const scene_light *light;    /* of kernels that trace shadows */
     int level;     /* LRB_NATIVE, LRB_COUNT or LRB_RECORD */
     unsigned jobs; /* host threads, at least 1; the result does not depend on it */
 } trace_request;
@@ -46,7 +50,7 @@ void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, uns
 /** One pixel's result as the oracles give theirs. */
 oracle_hit trace_hit(const trace_picture *picture, size_t pixel);
 
-/* Where two pictures differ in the bits of id, t, u or v. */
+/* Where two pictures differ in the bits of id, t, u, v, occlusion or visibility. */
 typedef struct trace_difference {
     size_t count, first; /* pixels that differ, and the first of them (SIZE_MAX: none) */
 } trace_difference;

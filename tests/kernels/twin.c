@@ -131,7 +131,7 @@ static kernel_job *twin_job(const bvh *tree, const scene_camera *camera, unsigne
     kernel_params params = {.cull_backface = (unsigned)cull};
     kernel_job *job = NULL;
     base_error err = {0};
-    if (kernel_job_create(tree, camera, width, height, &params, &job, &err) != BASE_OK)
+    if (kernel_job_create(tree, camera, NULL, width, height, &params, &job, &err) != BASE_OK)
         fail_msg("%s: %s", err.what, err.why);
     return job;
 }

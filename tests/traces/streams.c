@@ -59,7 +59,7 @@ stream_set stream_kernel(const char *name, unsigned size)
     must(scene_open("builtin:rooms-804", &s, &err), &err);
     must(scene_find_camera(s, NULL, &camera, &err), &err);
     must(bvh_build(s, &options, &tree, &err), &err);
-    must(kernel_job_create(tree, camera, size, size, &kernel->defaults, &job, &err), &err);
+    must(kernel_job_create(tree, camera, &s->light, size, size, &kernel->defaults, &job, &err), &err);
     stream_set set = record(kernel, job);
     kernel_job_destroy(&job);
     bvh_destroy(&tree);

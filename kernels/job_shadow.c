@@ -1,0 +1,192 @@
+#include "kernels/job_shadow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernels/light_samples.h"
+
+/* A shadow ray starts above its surface by this share of the diagonal of the scene's bounds... */
+static const double lift_relative = 1e-4;
+/* ...and blockers are looked for this far from either end, as a share of the ray. */
+static const float end_relative = 1e-5f;
+/* As for primary rays (kernels/job.c); the guard is larger, because corners of the light are rounded more often
+   (kernels/mft/lane_cull.h). */
+static const float slack_relative = 0x1p-16f, guard_relative = 0x1p-19f;
+/* The samples that are taken of a set if there are to be four: one in each row, column and quarter of the grid. */
+static const uint32_t four_samples = 1u << 4 | 1u << 13 | 1u << 2 | 1u << 11;
+
+static double diagonal_of(const bvh *tree)
+{
+    double square = 0;
+    for (int axis = 0; axis < 3 && tree->record_count; axis++) {
+        double extent = (double)tree->nodes[0].max[axis] - (double)tree->nodes[0].min[axis];
+        square += extent * extent;
+    }
+    return sqrt(square);
+}
+
+static void fill_normal(job_light *l, const scene_light *light)
+{
+    double n[3], square = 0;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = light->u[j] * light->v[k] - light->u[k] * light->v[j];
+        square += n[i] * n[i];
+    }
+    for (int i = 0; i < 3; i++)
+        l->normal[i] = (float)(n[i] / sqrt(square));
+}
+
+static void fill_light(kernel_job *job, const scene_light *light)
+{
+    job_light *l = &job->constants_host->light;
+    scene_light scaled = *light;
+    scene_light_scale(&scaled, job->params.light_scale);
+    fill_normal(l, light);
+    for (int axis = 0; axis < 3; axis++) {
+        l->corner[axis] = (float)scaled.corner[axis];
+        l->u[axis] = (float)scaled.u[axis];
+        l->v[axis] = (float)scaled.v[axis];
+        l->uv[axis] = l->u[axis] + l->v[axis];
+        l->point[axis] = (float)light->point[axis];
+    }
+    l->lift = (float)(lift_relative * diagonal_of(job->tree));
+    l->nearest = end_relative;
+    l->farthest = 1.0f - end_relative;
+    l->slack = slack_relative;
+    l->reach = 0.5f * slack_relative;
+    l->guard = guard_relative;
+    l->share = job->params.samples ? 1.0f / (float)job->params.samples : 0.0f;
+    l->one = 1.0f;
+}
+
+static void fill_samples(kernel_job *job, const light_samples *sets, unsigned count)
+{
+    const job_light *l = &job->constants_host->light;
+    memset(job->samples_host, 0, count * sizeof *job->samples_host);
+    for (unsigned s = 0; s < count; s++)
+        for (int j = 0; j < 16; j++) {
+            job_sample_set *set = &job->samples_host[s];
+            set->a[j] = sets[s].a[j];
+            set->b[j] = sets[s].b[j];
+            for (int axis = 0; axis < 3; axis++) {
+                float along_u = set->a[j] * l->u[axis], along_v = set->b[j] * l->v[axis];
+                set->delta[axis][j] = along_u + along_v;
+            }
+        }
+}
+
+static void fill_normals(kernel_job *job)
+{
+    for (size_t i = 0; i < job->tree->record_count; i++) {
+        const bvh_triangle *t = &job->tree->records[i];
+        double square = 0;
+        for (int axis = 0; axis < 3; axis++)
+            square += (double)t->normal[axis] * (double)t->normal[axis];
+        for (int axis = 0; axis < 3; axis++)
+            job->normals_host[t->id][axis] = (float)((double)t->normal[axis] / sqrt(square));
+    }
+}
+
+/* Triangle ids are below it. */
+static size_t id_limit(const bvh *tree)
+{
+    size_t limit = 1;
+    for (size_t i = 0; i < tree->record_count; i++)
+        limit = tree->records[i].id >= limit ? (size_t)tree->records[i].id + 1 : limit;
+    return limit;
+}
+
+base_status job_shadow_create(kernel_job *job, const scene_light *light, base_error *err)
+{
+    const unsigned samples = job->params.samples;
+    if (light)
+        fill_light(job, light);
+    if (samples == 0)
+        return BASE_OK;
+    base_status status = kernel_params_check_samples(samples, err);
+    if (status != BASE_OK)
+        return status;
+    const unsigned sets = samples > 256 ? samples / 16 : 16;
+    const size_t normals = id_limit(job->tree), normal_bytes = (normals * sizeof *job->normals_host + 63) / 64 * 64;
+    light_samples *points = calloc(sets, sizeof *points);
+    job->sample_passes = samples > 16 ? samples / 16 : 1;
+    job->sample_mask = samples < 16 ? four_samples : 0xffffu;
+    job->samples.size = sets * sizeof *job->samples_host;
+    job->normals.size = normal_bytes;
+    job->shadows.size = kernel_job_tiles(job) * sizeof *job->shadows_host;
+    job->samples_host = aligned_alloc(64, job->samples.size);
+    job->normals_host = aligned_alloc(64, job->normals.size);
+    job->shadows_host = aligned_alloc(64, job->shadows.size);
+    if (points && job->samples_host && job->normals_host && job->shadows_host) {
+        light_samples_fill(job->params.net, job->params.assignment, sets, points);
+        fill_samples(job, points, sets);
+        memset(job->normals_host, 0, normal_bytes);
+        fill_normals(job);
+    } else {
+        status = base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for the shadows of %ux%u pixels", job->width, job->height);
+    }
+    free(points);
+    return status;
+}
+
+void job_shadow_destroy(kernel_job *job)
+{
+    free(job->samples_host);
+    free(job->normals_host);
+    free(job->shadows_host);
+}
+
+unsigned job_shadow_set(const kernel_job *job, unsigned pixel, unsigned pass)
+{
+    return job->params.interleaved ? pixel ^ pass : pass;
+}
+
+/* a . b, as the kernels round it. */
+static float dot(const float a[3], const float b[3])
+{
+    return fmaf(a[2], b[2], fmaf(a[1], b[1], a[0] * b[0]));
+}
+
+/* Where shadow rays of a pixel start, and whether any of the light's corners is above the surface there. */
+static bool start_of(const kernel_job *job, unsigned x, unsigned y, float org[3])
+{
+    const job_constants *k = job->constants_host;
+    const job_pixel p = kernel_job_pixel(job, x, y);
+    const job_frame_tile *tile = &job->frame_host[p.tile];
+    const uint32_t id = tile->id[p.block][p.pixel];
+    float d[3], n[3], corner[3], highest = -INFINITY;
+    if (id == JOB_NO_HIT)
+        return false;
+    kernel_job_direction(job, x, y, d);
+    memcpy(n, job->normals_host[id], sizeof n);
+    const float side = dot(n, d) > 0.0f ? -1.0f : 1.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        n[axis] *= side;
+        org[axis] = fmaf(n[axis], k->light.lift, fmaf(d[axis], tile->t[p.block][p.pixel], k->origin_box[axis]));
+        corner[axis] = k->light.corner[axis] - org[axis];
+    }
+    if (!(dot(corner, k->light.normal) < 0.0f))
+        return false;
+    const float *along[3] = {k->light.u, k->light.uv, k->light.v};
+    highest = dot(n, corner);
+    for (int i = 0; i < 3; i++) {
+        float other[3] = {corner[0] + along[i][0], corner[1] + along[i][1], corner[2] + along[i][2]};
+        highest = fmaxf(highest, dot(n, other));
+    }
+    return highest > 0.0f;
+}
+
+bool job_shadow_ray_of(const kernel_job *job, unsigned x, unsigned y, unsigned pass, unsigned sample, job_shadow_ray *out)
+{
+    const job_pixel p = kernel_job_pixel(job, x, y);
+    const job_sample_set *set = &job->samples_host[job_shadow_set(job, p.pixel, pass)];
+    if (!start_of(job, x, y, out->org))
+        return false;
+    for (int axis = 0; axis < 3; axis++) {
+        float corner = job->constants_host->light.corner[axis] - out->org[axis];
+        out->dir[axis] = corner + set->delta[axis][sample];
+    }
+    return true;
+}

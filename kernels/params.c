@@ -1,0 +1,85 @@
+#include "kernels/params.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const net_names[] = {"hammersley", "larcher-pillichshammer"};
+static const char *const assignment_names[] = {"permuted", "rank", "bits"};
+static const char *const shrink_names[] = {"none", "corner-rays", "frusta", "ray-aabb"};
+
+static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
+    [KERNEL_PARAM_CULL_BACKFACE] = {"cull_backface", 0, 1, "1: triangles are hit from their front side only", offsetof(kernel_params, cull_backface), NULL},
+    [KERNEL_PARAM_MAX_LEAF] = {"max_leaf", 1, 64, "most triangles in a leaf of the BVH", offsetof(kernel_params, max_leaf), NULL},
+    [KERNEL_PARAM_BINS] = {"bins", 2, 64, "bins per axis of the BVH builder", offsetof(kernel_params, bins), NULL},
+    [KERNEL_PARAM_NET] = {"net", 0, 1, "the points on the light that the sets of 16 are taken from", offsetof(kernel_params, net), net_names},
+    [KERNEL_PARAM_ASSIGNMENT] = {"assignment", 0, 2, "how the points are dealt out to the sets", offsetof(kernel_params, assignment), assignment_names},
+    [KERNEL_PARAM_INTERLEAVED] = {"interleaved", 0, 1, "1: the 16 pixels of a 4x4 pattern use different sets", offsetof(kernel_params, interleaved), NULL},
+    [KERNEL_PARAM_SHRINK] = {"shrink", 0, 3, "what is made smaller when some rays of a shadow frustum are blocked", offsetof(kernel_params, shrink), shrink_names},
+};
+
+const kernel_param_info *kernel_param_list(size_t *count)
+{
+    *count = KERNEL_PARAM_COUNT;
+    return param_table;
+}
+
+static void append(char *text, size_t size, const char *item)
+{
+    size_t length = strlen(text);
+    snprintf(text + length, size - length, "%s%s", length ? ", " : "", item);
+}
+
+static base_status set_named(const kernel_param_info *info, unsigned *field, const char *value, base_error *err)
+{
+    char names[160] = "";
+    for (unsigned i = info->min; i <= info->max; i++) {
+        if (strcmp(info->values[i], value) == 0) {
+            *field = i;
+            return BASE_OK;
+        }
+        append(names, sizeof names, info->values[i]);
+    }
+    return base_fail(err, BASE_ERR_USAGE, "--param", "%s: no value '%s' (there are %s)", info->name, value, names);
+}
+
+static base_status set_number(const kernel_param_info *info, unsigned *field, const char *text, base_error *err)
+{
+    char *end;
+    errno = 0;
+    unsigned long value = strtoul(text, &end, 10);
+    if (*text < '0' || *text > '9' || *end || errno || value < info->min || value > info->max)
+        return base_fail(err, BASE_ERR_USAGE, "--param", "%s: '%s' is not a whole number in %u..%u", info->name, text, info->min,
+                         info->max);
+    *field = (unsigned)value;
+    return BASE_OK;
+}
+
+base_status kernel_params_set(kernel_params *params, uint64_t takes, const char *assignment, base_error *err)
+{
+    char names[160] = "";
+    size_t length = strcspn(assignment, "=");
+    if (assignment[length] != '=')
+        return base_fail(err, BASE_ERR_USAGE, "--param", "'%s' is not KEY=VALUE", assignment);
+    for (size_t i = 0; i < KERNEL_PARAM_COUNT; i++) {
+        const kernel_param_info *info = &param_table[i];
+        if (!(takes >> i & 1))
+            continue;
+        append(names, sizeof names, info->name);
+        if (strlen(info->name) != length || strncmp(info->name, assignment, length) != 0)
+            continue;
+        unsigned *field = (unsigned *)((char *)params + info->offset);
+        return info->values ? set_named(info, field, assignment + length + 1, err)
+                            : set_number(info, field, assignment + length + 1, err);
+    }
+    return base_fail(err, BASE_ERR_USAGE, "--param", "no parameter '%.*s' (there are %s)", (int)length, assignment, names);
+}
+
+base_status kernel_params_check_samples(unsigned long samples, base_error *err)
+{
+    for (unsigned long n = 4; n <= 4096; n *= 4)
+        if (n == samples)
+            return BASE_OK;
+    return base_fail(err, BASE_ERR_USAGE, "--samples", "%lu is not 4, 16, 64, 256, 1024 or 4096", samples);
+}
