@@ -33,25 +33,31 @@ LRB_INLINE bool entry_all_enter(lrb_ctx *c, const kd16 *k, lrb_v16f cell)
     return lrb_jnz(c, lrb_test(c, enter, lrb_imm(1)));
 }
 
-/* Whether all corner rays pass inside the edge planes in scratch, by more than rounding. */
+/* Whether all corner rays have a volume of that sign over an edge, by more than rounding. */
+LRB_INLINE bool entry_all_beside(lrb_ctx *c, const kd16 *k, int edge, bool front, lrb_v16f volume)
+{
+    int group = edge - SCRATCH_EDGES;
+    lrb_k16 m;
+    if (front)
+        m = lrb_cmplt_ps_s3(c, volume, lrb_1to16_ps(lrb_at(k->scratch, SCRATCH_MINUS_GUARD + group)));
+    else
+        m = lrb_cmpnle_ps_s3(c, volume, lrb_1to16_ps(lrb_at(k->scratch, SCRATCH_GUARD + group)));
+    return lrb_jb(c, lrb_kortest(c, m, m));
+}
+
+/* Whether all corner rays pass inside the edge planes in scratch, in front or behind. */
 LRB_INLINE bool entry_all_inside(lrb_ctx *c, const kd16 *k, lrb_v16f zero, lrb_v16f edges, const lrb_v16f d[3])
 {
-    static const int edge_planes[3] = {TRIANGLE16_EDGE_A, TRIANGLE16_EDGE_B, TRIANGLE16_EDGE_C};
-    lrb_k16 front = lrb_mask(0xffff), back = lrb_mask(k->cull ? 0 : 0xffff);
     corner_cull_guard(c, k->constants, k->scratch, zero, edges, false);
-    for (int i = 0; i < 3; i++) {
-        int group = edge_planes[i] - SCRATCH_EDGES;
-        lrb_v16f volume = triangle16_edge(c, k->scratch, edge_planes[i], d);
-        front = lrb_mask_cmplt_ps_s3(c, front, volume, lrb_1to16_ps(lrb_at(k->scratch, SCRATCH_MINUS_GUARD + group)));
-        if (lrb_jb(c, lrb_kortest(c, front, front)))
-            continue;
-        if (k->cull)
-            return false;
-        back = lrb_mask_cmpnle_ps_s3(c, back, volume, lrb_1to16_ps(lrb_at(k->scratch, SCRATCH_GUARD + group)));
-        if (!lrb_jb(c, lrb_kortest(c, back, back)))
-            return false;
-    }
-    return true;
+    lrb_v16f volume = triangle16_edge(c, k->scratch, TRIANGLE16_EDGE_A, d);
+    bool front = entry_all_beside(c, k, TRIANGLE16_EDGE_A, true, volume); /* from here on its branch's side */
+    if (!front && (k->cull || !entry_all_beside(c, k, TRIANGLE16_EDGE_A, false, volume)))
+        return false;
+    volume = triangle16_edge(c, k->scratch, TRIANGLE16_EDGE_B, d);
+    if (!entry_all_beside(c, k, TRIANGLE16_EDGE_B, front, volume))
+        return false;
+    volume = triangle16_edge(c, k->scratch, TRIANGLE16_EDGE_C, d);
+    return entry_all_beside(c, k, TRIANGLE16_EDGE_C, front, volume);
 }
 
 /* Lanes in which |sum| is at least an eighth of `magnitude`, the sum of the magnitudes of its terms. */
