@@ -30,6 +30,7 @@ static void fill_cells(const kernel_job *job, const scene_primary_rays *rays)
     for (int i = 0; i < 16; i++)
         k->signs[i] = i / 4 == 1 ? -1.0f : 1.0f;
     k->eighth = 0.125f;
+    k->plane_error = 2.0f * job->constants_host->guard * (job->constants_host->guard / guard_relative);
     k->margin = 0x1p-14f;
 }
 

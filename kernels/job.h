@@ -72,7 +72,8 @@ typedef struct job_cells {
     float d00[16], dx[16], dy[16]; /* those of job_constants, an axis to each group of four lanes; the last group is 0 */
     float signs[16]; /* 1, but -1 in words 4 to 7 */
     float eighth, margin; /* what tells a distance from its rounding, and as a share of it keeps a hit inside a cell (kernels/mlrta/entry_end.h) */
-    float pad[14];
+    float plane_error;   /* of the normals of planes through two corner rays, at most */
+    float pad[13];
 } job_cells;
 
 /* One tile, 64 bytes. */

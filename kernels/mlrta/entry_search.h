@@ -8,6 +8,7 @@
 #ifndef KERNELS_MLRTA_ENTRY_SEARCH_H
 #define KERNELS_MLRTA_ENTRY_SEARCH_H
 
+#include "kernels/mlrta/entry_cull.h"
 #include "kernels/mlrta/entry_end.h"
 
 #undef LRB_SOURCE
@@ -77,6 +78,26 @@ LRB_INLINE lrb_r64 entry_children(lrb_ctx *c, const entry_plane *p, lrb_v16f cel
     return lrb_kmov_rk(c, lrb_cmpnlt_ps(c, p->at, cell));
 }
 
+/* The same by the ways of entry_cull.h, which look at the children's cells. */
+LRB_INLINE lrb_r64 entry_children_by_cell(lrb_ctx *c, const kd16 *k, kernel_culling culling, const entry_plane *p, lrb_v16f cell)
+{
+    entry_place nearer = entry_near(c, p, cell), farther = entry_far(c, p, cell);
+    lrb_r64 children = lrb_imm(0);
+    if (culling == KERNEL_CULL_CORNER_RAYS) {
+        if (entry_corner_enters(c, k, nearer.cell))
+            children = lrb_or(c, children, lrb_imm(0x0f));
+        if (entry_corner_enters(c, k, farther.cell))
+            children = lrb_or(c, children, lrb_imm(0xf0));
+        return children;
+    }
+    lrb_r64 ahead = lrb_and(c, entry_children(c, p, cell), lrb_imm(8)); /* word 3: the plane is not behind the origin */
+    if (lrb_jnz(c, lrb_test(c, ahead, ahead)) && entry_between_planes(c, k, nearer.cell))
+        children = lrb_or(c, children, lrb_imm(0x0f));
+    if (entry_between_planes(c, k, farther.cell))
+        children = lrb_or(c, children, lrb_imm(0xf0));
+    return children;
+}
+
 LRB_INLINE bool entry_reaches(lrb_ctx *c, lrb_r64 children, uint64_t bits)
 {
     return lrb_jz(c, lrb_cmp(c, lrb_and(c, children, lrb_imm(bits)), lrb_imm(bits)));
@@ -96,7 +117,8 @@ LRB_INLINE bool entry_meets(lrb_ctx *c, const kd16 *k, lrb_v16f cell)
 
 /* Go down from a place to the first leaf that the rays could hit something in, leaving branchings on the stack; those whose nearer
    side turns out to hold none are taken off it. */
-LRB_INLINE entry_way entry_descend(lrb_ctx *c, const kd16 *k, bool occluders, lrb_ptr bottom, lrb_ptr *top, entry_place *at)
+LRB_INLINE entry_way entry_descend(lrb_ctx *c, const kd16 *k, kernel_culling culling, bool occluders, lrb_ptr bottom, lrb_ptr *top,
+                                   entry_place *at)
 {
     for (;;) {
         lrb_r64 link = lrb_load32(c, lrb_at_index(k->nodes, at->node, 1, (int32_t)offsetof(kdtree_node, link)));
@@ -107,13 +129,14 @@ LRB_INLINE entry_way entry_descend(lrb_ctx *c, const kd16 *k, bool occluders, lr
             if (lrb_jb(c, lrb_cmp(c, extent, lrb_imm(KDTREE_KIND + 1)))) {
                 if (occluders && lrb_jnz(c, lrb_test(c, extent, lrb_imm(KDTREE_OCCLUDER))) && entry_all_enter(c, k, at->cell))
                     return ENTRY_OCCLUDED;
-            } else if (entry_meets(c, k, at->cell)) {
+            } else if (culling != KERNEL_CULL_INVERSE || entry_meets(c, k, at->cell)) {
                 return ENTRY_LEAF;
             }
         } else {
             k->n->n[KERNEL_ep_inner]++;
             entry_plane plane = entry_plane_of(c, k, at->node, link, axis);
-            lrb_r64 children = entry_children(c, &plane, at->cell);
+            lrb_r64 children = culling == KERNEL_CULL_INVERSE ? entry_children(c, &plane, at->cell)
+                                                              : entry_children_by_cell(c, k, culling, &plane, at->cell);
             if (entry_reaches(c, children, 0x0f)) {
                 if (entry_reaches(c, children, 0xf0))
                     *top = entry_push(c, at, *top);
@@ -135,36 +158,48 @@ LRB_INLINE entry_way entry_descend(lrb_ctx *c, const kd16 *k, bool occluders, lr
 /**
  * Search the entry point of a tile whose bounds are in scratch.
  *
- * @param at  in: where to begin; out: the entry point
+ * @param params  culling, ends, empty_occluders
+ * @param at      in: where to begin; out: the entry point
  *
  * Returns false if the rays can hit nothing.
  */
-LRB_INLINE bool entry_search(lrb_ctx *c, const kd16 *k, bool ends, bool occluders, const tile_bounds *b, entry_place *at)
+LRB_INLINE bool entry_search(lrb_ctx *c, const kd16 *k, const kernel_params *params, const tile_bounds *b, entry_place *at)
 {
+    const kernel_culling culling = (kernel_culling)params->culling;
     lrb_ptr bottom = lrb_lea(c, k->scratch, lrb_imm(0), 1, ENTRY_STACK);
-    lrb_ptr top = bottom;
-    entry_place leaf = *at;
-    entry_way way = entry_descend(c, k, occluders, bottom, &top, &leaf);
-    if (way == ENTRY_OCCLUDED) { /* the origin must be inside */
-        top = bottom;
-        leaf = *at;
-        way = entry_descend(c, k, false, bottom, &top, &leaf);
-    }
-    if (way == ENTRY_NOTHING)
-        return false;
-    *at = leaf;
-    while (!lrb_jz(c, lrb_cmp_ptr(c, top, bottom)) && !(ends && way == ENTRY_LEAF && entry_ends(c, k, b, &leaf))) {
-        entry_place branching = entry_pop(c, &top);
-        lrb_ptr base = top;
-        leaf = entry_other_side(c, k, &branching);
-        way = entry_descend(c, k, occluders, base, &top, &leaf);
-        top = base;
-        if (way == ENTRY_OCCLUDED)
-            break;
+    lrb_ptr top = bottom, base = bottom;
+    entry_place branching = *at, leaf = *at;
+    bool occluders = params->empty_occluders, first = true;
+    if (culling == KERNEL_CULL_DIRECT)
+        entry_planes_setup(c, k);
+    if (culling == KERNEL_CULL_CORNER_RAYS)
+        entry_rays_setup(c, k);
+    for (;;) {
+        entry_way way = entry_descend(c, k, culling, occluders, base, &top, &leaf);
+        if (way == ENTRY_OCCLUDED) {
+            k->n->n[KERNEL_end_hits]++;
+            if (!first)
+                return true;
+            occluders = false; /* the origin must be inside: this way down once more */
+            top = base;
+            leaf = branching;
+            continue;
+        }
+        occluders = params->empty_occluders;
+        if (way == ENTRY_NOTHING && first)
+            return false;
         if (way == ENTRY_LEAF)
-            *at = branching;
+            *at = first ? leaf : branching;
+        top = first ? top : base;
+        first = false;
+        if (lrb_jz(c, lrb_cmp_ptr(c, top, bottom)))
+            return true;
+        if (params->ends && way == ENTRY_LEAF && entry_ends(c, k, b, &leaf))
+            return true;
+        branching = entry_pop(c, &top);
+        base = top;
+        leaf = entry_other_side(c, k, &branching);
     }
-    return true;
 }
 
 #endif

@@ -18,7 +18,8 @@ enum {
     ENTRY_MOST = ENTRY_LEAST + 64,     /* 64: ... largest reciprocals of its directions */
     ENTRY_CORNERS = ENTRY_MOST + 64,   /* 4 x 64: its corner rays: all axes, then x, y, z */
     ENTRY_CELL = ENTRY_CORNERS + 4 * 64, /* 64: a cell, to be read by words */
-    ENTRY_TILES = ENTRY_CELL + 64,       /* tiles that are being split, the largest first */
+    ENTRY_PLANES = ENTRY_CELL + 64,      /* 6 x 64: planes around its rays, by word of a cell; or reciprocals of its corner rays */
+    ENTRY_TILES = ENTRY_PLANES + 6 * 64, /* tiles that are being split, the largest first */
     ENTRY_STACK = ENTRY_TILES + ENTRY_TILE_FRAME * ENTRY_TILE_LEVELS, /* of the search: nodes with two possible children, and their cells */
     KD_SCRATCH_END = ENTRY_STACK + ENTRY_STACK_ENTRY * (KDTREE_MAX_DEPTH + 1)
 };

@@ -112,7 +112,6 @@ LRB_INLINE void mlrta_push(lrb_ctx *c, mlrta_state *m, const mlrta_tile *t)
 /* Search a tile's entry point, then trace it, or put it on the stack of those that are split. */
 LRB_INLINE void mlrta_process(lrb_ctx *c, mlrta_state *m, mlrta_tile *t)
 {
-    const kernel_params *params = &m->job->params;
     tile_bounds bounds = {.negative = lrb_mask(0)};
     lrb_phase(c, KERNEL_PHASE_ENTRY);
     tile_pixels pixels = mlrta_pixels(c, m, t);
@@ -122,7 +121,7 @@ LRB_INLINE void mlrta_process(lrb_ctx *c, mlrta_state *m, mlrta_tile *t)
         if (lrb_jz(c, lrb_test(c, t->start.node, t->start.node))) /* the root's cell is not turned yet */
             t->start.cell = tile_turned(c, &bounds, lrb_load_ps(c, KD16_CELLS(m->k.cells, cell)));
         m->k.n->n[KERNEL_units_tiles]++;
-        t->nothing = !entry_search(c, &m->k, params->ends, params->empty_occluders, &bounds, &t->start);
+        t->nothing = !entry_search(c, &m->k, &m->job->params, &bounds, &t->start);
         m->k.n->n[KERNEL_units_empty_tiles] += t->nothing;
     } else {
         m->k.n->n[KERNEL_units_divergent_tiles]++;

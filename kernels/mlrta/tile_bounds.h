@@ -134,7 +134,7 @@ LRB_INLINE bool tile_bounds_setup(lrb_ctx *c, const kd16 *k, const tile_pixels *
     lrb_v16f ones = lrb_load_1to16_ps(c, KD16_CELLS(k->cells, signs));
     lrb_store_ps(c, lrb_at(k->scratch, ENTRY_LEAST), tile_words(c, ones, 0x1111, least_of_all));
     lrb_store_ps(c, lrb_at(k->scratch, ENTRY_MOST), tile_words(c, ones, 0x1111, tile_largest(c, most)));
-    lrb_store_ps(c, lrb_at(k->scratch, ENTRY_CORNERS), lrb_castpi_ps(bits));
+    lrb_store_ps(c, lrb_at(k->scratch, ENTRY_CORNERS), lrb_castpi_ps(bits)); /* magnitudes: as the rays see them */
     lrb_r64 words = lrb_and(c, negative, lrb_imm(1)); /* nibbles to words: one bit an axis ... */
     words = lrb_or(c, words, lrb_and(c, lrb_shr(c, negative, 3), lrb_imm(2)));
     words = lrb_or(c, words, lrb_and(c, lrb_shr(c, negative, 6), lrb_imm(4)));
