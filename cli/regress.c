@@ -85,13 +85,11 @@ static base_status measure_scene(json_t *runs, const scene *s, unsigned jobs, ba
 static base_status measure_suite(json_t *runs, unsigned jobs, base_error *err)
 {
     size_t count;
-    const scene_builtin *builtin = scene_builtin_list(&count);
+    const char *const *scenes = scene_builtin_usual(&count);
     base_status status = BASE_OK;
     for (size_t i = 0; status == BASE_OK && i < count; i++) {
-        char name[64];
         scene *s = NULL;
-        snprintf(name, sizeof name, "builtin:%s", builtin[i].name);
-        status = scene_open(name, &s, err);
+        status = scene_open(scenes[i], &s, err);
         if (status == BASE_OK)
             status = measure_scene(runs, s, jobs, err);
         scene_destroy(&s);

@@ -284,13 +284,14 @@ static base_status trace(run_result *result, base_error *err)
         status = run_trace_begin(result, &recorded, err);
     if (status == BASE_OK) {
         progress bar = progress_begin(o->kernel->name, tiles, o->progress);
-        double start = clock_seconds();
+        double start = clock_seconds(), processor_start = clock_processor_seconds();
         recorder_input input = {.tiles = tiles, .kernel = o->kernel, .job = result->job, .tile_counts = result->tile_counts,
                                 .trace = &recorded, .annotated = o->profile || o->registers, .registers = o->registers};
         status = o->model != RUN_CORE ? trace_tiles(result, &recorded, &bar, err)
                  : o->error > 0       ? trace_sampled(result, &input, &bar, err)
                                       : run_core(result, &input, &bar, err);
         result->kernel_seconds = clock_seconds() - start;
+        result->processor_seconds = clock_processor_seconds() - processor_start;
         progress_end(&bar);
     }
     if (status == BASE_OK)

@@ -69,6 +69,7 @@ typedef struct run_result {
     sim_profile *profile;  /* options.profile */
     sim_registers_stats registers; /* options.registers */
     double build_seconds, kernel_seconds;
+    double processor_seconds; /* of all host threads, in the same time as kernel_seconds; 0: a replay */
 } run_result;
 
 /**

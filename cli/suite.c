@@ -41,7 +41,7 @@ static size_t default_scenes(const suite *s)
 {
     size_t count = 0;
     if (!s->info->scenes)
-        (void)scene_builtin_list(&count);
+        (void)scene_builtin_usual(&count);
     else
         while (s->info->scenes[count])
             count++;
@@ -49,14 +49,12 @@ static size_t default_scenes(const suite *s)
 }
 
 /* What scene_open takes for scene number i. */
-static void scene_argument(const suite *s, size_t i, char name[SUITE_PATH_BYTES])
+static const char *scene_argument(const suite *s, size_t i)
 {
     size_t count;
-    const char *given = s->options->scenes.count ? s->options->scenes.items[i] : s->info->scenes ? s->info->scenes[i] : NULL;
-    if (given)
-        snprintf(name, SUITE_PATH_BYTES, "%s", given);
-    else
-        snprintf(name, SUITE_PATH_BYTES, "builtin:%s", scene_builtin_list(&count)[i].name);
+    if (s->options->scenes.count)
+        return s->options->scenes.items[i];
+    return s->info->scenes ? s->info->scenes[i] : scene_builtin_usual(&count)[i];
 }
 
 static void name_scene(const suite *s, suite_scene *on, const char *name)
@@ -77,11 +75,9 @@ base_status suite_each_scene(suite *s, suite_scene_fn *measure, void *user, base
 {
     base_status status = BASE_OK;
     for (size_t i = 0; status == BASE_OK && i < s->scene_count; i++) {
-        char name[SUITE_PATH_BYTES];
         scene *opened = NULL;
         suite_scene *on = &s->scenes[i];
-        scene_argument(s, i, name);
-        status = scene_open(name, &opened, err);
+        status = scene_open(scene_argument(s, i), &opened, err);
         if (status == BASE_OK) {
             name_scene(s, on, opened->name);
             on->scene = opened;

@@ -29,7 +29,7 @@ typedef struct suite_info {
     const char *name;          /* mft-primary: what the command line and the files call it */
     const char *summary;       /* a line for the list of suites */
     const char *title, *about; /* of the page: its heading, and a paragraph on what is compared with what */
-    const char *const *scenes; /* names for scene_open, NULL at the end; NULL: all built-in scenes */
+    const char *const *scenes; /* names for scene_open, NULL at the end; NULL: the usual ones (scene_builtin_usual) */
     unsigned size;             /* default width and height in pixels */
     unsigned jobs;             /* default host threads; 0: all */
     unsigned takes;

@@ -47,7 +47,7 @@ typedef enum lrb_hint {
 typedef struct lrb_shape_info {
     const char *name; /* "V_VV" */
     lrb_access access;
-    const char *reads; /* four letters, one a source: p plain, e early, a address, b jump */
+    const char *reads; /* four letters, one a source: p plain, e early, a address, b jump, m mask */
     const char *sentence;
 } lrb_shape_info;
 

@@ -142,6 +142,7 @@ void report_cycles_by_field(const sim_machine *machine, const sim_cycles *s, con
         [SIM_CONSUMER_SHUFFLE] = SIM_KEY_latency_to_shuffle,
         [SIM_CONSUMER_BRANCH] = SIM_KEY_latency_to_branch,
         [SIM_CONSUMER_ADDRESS] = SIM_KEY_latency_to_address,
+        [SIM_CONSUMER_MASK] = SIM_KEY_latency_to_mask,
     };
     memset(by_field, 0, SIM_FIELDS * sizeof *by_field);
     for (int i = 0; i < LRB_CLASS_COUNT; i++) {

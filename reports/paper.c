@@ -8,13 +8,19 @@ static double scale_of(const char *unit)
     return strcmp(unit, "thousand") == 0 ? 1e3 : strcmp(unit, "million") == 0 ? 1e6 : 1;
 }
 
-double report_paper_find(const char *table, const char *scene, const char *algorithm, const char *metric)
+const report_paper_value *report_paper_entry(const char *table, const char *scene, const char *algorithm, const char *metric)
 {
     size_t count;
     const report_paper_value *v = report_paper_list(&count);
     for (size_t i = 0; i < count; i++)
         if (strcmp(v[i].table, table) == 0 && strcmp(v[i].scene, scene) == 0 && strcmp(v[i].algorithm, algorithm) == 0 &&
             strcmp(v[i].metric, metric) == 0)
-            return v[i].value * scale_of(v[i].unit);
-    return (double)NAN;
+            return &v[i];
+    return NULL;
+}
+
+double report_paper_find(const char *table, const char *scene, const char *algorithm, const char *metric)
+{
+    const report_paper_value *v = report_paper_entry(table, scene, algorithm, metric);
+    return v ? v->value * scale_of(v->unit) : (double)NAN;
 }

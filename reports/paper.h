@@ -21,6 +21,9 @@ typedef struct report_paper_value {
 /** All values, in the order of the files; *count of them. */
 const report_paper_value *report_paper_list(size_t *count);
 
+/** One entry, or NULL. */
+const report_paper_value *report_paper_entry(const char *table, const char *scene, const char *algorithm, const char *metric);
+
 /** One value, in units of one (thousands and millions multiplied out); NaN if there is none, or it is lost. */
 double report_paper_find(const char *table, const char *scene, const char *algorithm, const char *metric);
 

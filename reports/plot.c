@@ -25,8 +25,9 @@ static const char head[] = "set terminal pngcairo size 960,640 noenhanced font '
                            "set linetype 7 linecolor rgb '#e69f00' pointtype 4\n"
                            "set linetype 8 linecolor rgb '#b8a800' pointtype 8\n"
                            "set linetype cycle 8\n"
-                           "set grid linecolor rgb '#dddddd'\n"
-                           "set key outside right top\n"
+                           "set grid linecolor rgb '#cccccc' linewidth 1\n"
+                           "set key below left Left reverse height 0.6\n"
+                           "set autoscale fix\n"
                            "set offsets graph 0.04, graph 0.08, graph 0.05, graph 0.03\n";
 
 /* A string of gnuplot's: nothing but a quote is special between single quotes. False if there is no memory. */

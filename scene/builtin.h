@@ -20,6 +20,12 @@ typedef struct scene_builtin {
 /** All built-in scenes, in order of size; *count entries. */
 const scene_builtin *scene_builtin_list(size_t *count);
 
+/**
+ * Specs, as scene_open takes them, of the scenes that reports, baselines and tests run when none is named: the small indoor
+ * ones; *count entries. The others take seconds to minutes each and are run by name.
+ */
+const char *const *scene_builtin_usual(size_t *count);
+
 /** The entry of that name (without `builtin:`), or NULL. */
 const scene_builtin *scene_builtin_find(const char *name);
 

@@ -40,6 +40,7 @@ base_status sim_chain_meter_create(const sim_machine *machine, sim_chain_meter *
         m->latency[k][SIM_CONSUMER_SHUFFLE] = machine->cost[k].latency_to_shuffle;
         m->latency[k][SIM_CONSUMER_BRANCH] = machine->cost[k].latency_to_branch;
         m->latency[k][SIM_CONSUMER_ADDRESS] = machine->cost[k].latency_to_address;
+        m->latency[k][SIM_CONSUMER_MASK] = machine->cost[k].latency_to_mask;
     }
     return BASE_OK;
 }

@@ -47,7 +47,7 @@ static inline void place_sources(core_op *op, uint32_t number, uint32_t window)
     const four_sources distance = load_four(op->event->src);
     const four_sources recent = (four_sources)(distance - 1 < (uint16_t)(window - 1));
     const four_sources place = ((uint16_t)number - distance) & (uint16_t)(window - 1);
-    const four_sources source = place * SIM_CONSUMERS + load_four(op->price->consumer);
+    const four_sources source = place * SIM_CONSUMERS + (four_sources){op->price->consumer[0], op->price->consumer[1], op->price->consumer[2], op->price->consumer[3]};
     const four_sources chosen = (source & recent) | ((uint16_t)(window * SIM_CONSUMERS) & ~recent);
     memcpy(op->source, &chosen, sizeof chosen);
 }

@@ -7,7 +7,14 @@
 #include "lrbni/cost_classes.h"
 
 /* How a consumer reads an operand: which of the producer's latencies applies. */
-typedef enum sim_consumer { SIM_CONSUMER_PLAIN, SIM_CONSUMER_SHUFFLE, SIM_CONSUMER_BRANCH, SIM_CONSUMER_ADDRESS, SIM_CONSUMERS } sim_consumer;
+typedef enum sim_consumer {
+    SIM_CONSUMER_PLAIN,
+    SIM_CONSUMER_SHUFFLE,
+    SIM_CONSUMER_BRANCH,
+    SIM_CONSUMER_ADDRESS,
+    SIM_CONSUMER_MASK,
+    SIM_CONSUMERS
+} sim_consumer;
 
 #define SIM_MAX_PHASES 16
 #define SIM_MAX_REGIONS 16 /* of a tile */

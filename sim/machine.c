@@ -51,6 +51,7 @@ void sim_machine_refresh(sim_machine *machine)
         machine->cost[c].latency_to_shuffle = latency;
         machine->cost[c].latency_to_branch = latency;
         machine->cost[c].latency_to_address = latency;
+        machine->cost[c].latency_to_mask = latency;
     }
     for (size_t number = 0; number < SIM_FIELDS; number++) {
         if (!sim_field_get(number, &field))

@@ -42,6 +42,7 @@ typedef struct sim_class_cost {
     unsigned latency_to_shuffle; /* >= latency */
     unsigned latency_to_branch;  /* may be 0 */
     unsigned latency_to_address; /* >= latency */
+    unsigned latency_to_mask;    /* may be 0 */
     unsigned blocking;           /* cycles; 0 = none */
 } sim_class_cost;
 

@@ -16,6 +16,7 @@
 #define VECTOR_WRITERS                                                                                                 \
     (BIT(vector_alu) | BIT(vector_permute) | BIT(vector_convert) | BIT(vector_lookup) |                              \
      BIT(vector_transcendental) | BIT(vector_load) | BIT(vector_load_convert) | BIT(vector_gather))
+#define LINE_BY_LINE (BIT(vector_gather) | BIT(vector_scatter))
 #define REGISTER_WRITERS                                                                                               \
     (BIT(scalar_alu) | BIT(scalar_shift) | BIT(scalar_multiply) | BIT(scalar_bit) | BIT(scalar_load) | BIT(mask_move))
 

@@ -16,16 +16,18 @@ static sim_consumer consumer_of(char read)
         return SIM_CONSUMER_ADDRESS;
     case 'b':
         return SIM_CONSUMER_BRANCH;
+    case 'm':
+        return SIM_CONSUMER_MASK;
     default:
         return SIM_CONSUMER_PLAIN;
     }
 }
 
-static void consumers_of(lrb_op_id id, unsigned form, uint16_t consumer[SIM_MAX_SOURCES])
+static void consumers_of(lrb_op_id id, unsigned form, uint8_t consumer[SIM_MAX_SOURCES])
 {
     const char *reads = lrb_shape_table[lrb_op_table[id].shape].reads;
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)
-        consumer[i] = (uint16_t)consumer_of(reads[i]);
+        consumer[i] = (uint8_t)consumer_of(reads[i]);
     if (form & LRB_FORM_MEMORY)
         consumer[1] = SIM_CONSUMER_ADDRESS;
     else if (form & LRB_FORM_SWIZZLE && lrb_op_access_of(id) == LRB_ACCESS_NONE)
@@ -52,6 +54,7 @@ static void latencies_of(const sim_class_cost *cost, uint32_t latency[SIM_CONSUM
     latency[SIM_CONSUMER_SHUFFLE] = cost->latency_to_shuffle;
     latency[SIM_CONSUMER_BRANCH] = cost->latency_to_branch;
     latency[SIM_CONSUMER_ADDRESS] = cost->latency_to_address;
+    latency[SIM_CONSUMER_MASK] = cost->latency_to_mask;
 }
 
 static uint8_t flags_of(lrb_op_id id, unsigned form, const sim_class_cost *cost)
@@ -96,7 +99,6 @@ static void price_op(sim_op_price *p, const sim_machine *machine, lrb_op_id id, 
     p->word_shift = lrb_form_bytes(form) == 64 ? 0 : 15;
     p->lanes = is_vector ? 0xffff : 0;
     p->flags = flags_of(id, form, cost);
-    p->store_latency = cost->latency;
     p->busy = (uint16_t)((cost->throughput + 1) / 2);
     p->blocking = (uint16_t)cost->blocking;
     p->bytes = (uint8_t)(lrb_form_bytes(form) ? lrb_form_bytes(form) : is_vector ? 64 : 4);

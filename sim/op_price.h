@@ -57,13 +57,12 @@ enum {
 /* The price of an op in one form; 64 bytes. */
 typedef struct sim_op_price {
     sim_result latency;
-    uint16_t consumer[SIM_MAX_SOURCES]; /* sim_consumer of each source */
+    uint8_t consumer[SIM_MAX_SOURCES]; /* sim_consumer of each source */
     uint32_t partners; /* set of classes: ops of these may join this one in V; empty if it cannot issue in U beside another */
     uint32_t words;    /* of its line that it touches, from its address on; 0: those of the mask */
     uint8_t class_id;
     uint8_t flags;     /* SIM_PRICE_... */
     uint16_t lanes;    /* all ones for a vector op */
-    uint32_t store_latency; /* of a store: to a load of the same words */
     uint16_t busy;     /* cycles for which the class is busy, from the op's issue on */
     uint16_t blocking; /* cycles for which the thread is blocked; 0: not at all */
     uint8_t bytes;     /* that it loads or stores */

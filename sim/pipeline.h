@@ -66,7 +66,7 @@ static inline void sim_remember_store(sim_store_line stores[SIM_STORE_LINES], co
 {
     sim_store_line *line = &stores[e->aux / 64 % SIM_STORE_LINES];
     uint32_t words = sim_words_of(p, e);
-    sim_blamed ready = now + sim_blame(p->store_latency, SIM_BUCKET_STORE);
+    sim_blamed ready = now + sim_blame(sim_time_of(p->latency.ready[SIM_CONSUMER_PLAIN]), SIM_BUCKET_STORE);
     if (line->line == e->aux / 64 && line->ready > sim_end_of_cycle(now)) {
         words |= line->words; /* stores to one line that follow each other closely count as one, ready with the last of them */
         ready = ready > line->ready ? ready : line->ready;

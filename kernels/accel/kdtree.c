@@ -5,6 +5,7 @@
 
 #include "kernels/accel/kdtree_builder.h"
 #include "kernels/accel/kdtree_occluders.h"
+#include "kernels/accel/kdtree_tally.h"
 
 #define MOST_MIN_AREA 1000000000u
 
@@ -59,7 +60,9 @@ base_status kdtree_build(const scene *s, const kdtree_options *options, kdtree *
         return base_fail(err, BASE_ERR_NOMEM, "kd-tree", "out of memory");
     status = kdtree_builder_run(s, options, tree, err);
     if (status == BASE_OK)
-        status = kdtree_occluders_none(tree, err);
+        status = kdtree_occluders_find(s, options->empty_occluders, options->jobs, tree, err);
+    if (status == BASE_OK)
+        status = kdtree_tally(tree, options, s->name, err);
     if (status != BASE_OK) {
         kdtree_destroy(&tree);
         return status;

@@ -116,8 +116,10 @@ base_status kdtree_build(const scene *s, const kdtree_options *options, kdtree *
  * that rounding decides, count as inside its component.
  *
  * @param origins  cameras and point lights
+ *
+ * Errors: BASE_ERR_NOMEM; the marks are as they were then.
  */
-void kdtree_mark_occluders(kdtree *tree, const float (*origins)[3], size_t count);
+base_status kdtree_mark_occluders(kdtree *tree, const float (*origins)[3], size_t count, base_error *err);
 
 /** Free a tree; sets the pointer to NULL. */
 void kdtree_destroy(kdtree **tree);

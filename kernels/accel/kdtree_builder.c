@@ -360,9 +360,7 @@ static base_status place_nodes(builder *b, base_error *err)
 {
     kdtree *tree = b->tree;
     number_tops(b);
-    tree->inner_count = b->tops[0].pair_count;
-    tree->leaf_count = tree->inner_count + 1;
-    tree->node_count = 2 * (tree->inner_count + 1);
+    tree->node_count = 2 * (b->tops[0].pair_count + 1);
     tree->list_count = b->tops[0].below.id_count;
     if (tree->node_count * sizeof *tree->nodes > UINT32_MAX || tree->list_count * sizeof *tree->lists > UINT32_MAX)
         return base_fail(err, BASE_ERR_INPUT, b->scene->name, "its kd-tree is larger than 4 GiB");
@@ -382,23 +380,7 @@ static base_status place_nodes(builder *b, base_error *err)
     return BASE_OK;
 }
 
-/* Sums over the whole tree, in the order of `tops`, so that rounding is the same everywhere. */
-static void sum_up(builder *b, const kdtree_cell *root)
-{
-    kdtree *tree = b->tree;
-    double cost = 0.0;
-    for (size_t i = 0; i < b->top_count; i++) {
-        const top_node *top = &b->tops[i];
-        tree->empty_count += top->below.empty_count;
-        tree->flat_count += top->below.flat_count;
-        tree->covered_count += top->below.covered_count;
-        tree->depth = top->below.depth > tree->depth ? top->below.depth : tree->depth;
-        cost += top->child == 0 ? top->below.cost : kdtree_cell_half_area(&top->span.cell) * b->rules.traversal_cost;
-    }
-    tree->sah_cost = tree->record_count ? cost / kdtree_cell_half_area(root) : 0.0;
-}
-
-/* ---- 5. records and sizes ---- */
+/* ---- 5. records ---- */
 
 /* Number the records in the order in which the lists name their triangles; entries become offsets. */
 static base_status write_records(builder *b, size_t count, base_error *err)
@@ -420,20 +402,6 @@ static base_status write_records(builder *b, size_t count, base_error *err)
         tree->lists[i] = places[id];
     }
     free(places);
-    return BASE_OK;
-}
-
-static base_status write_sizes(kdtree *tree, base_error *err)
-{
-    tree->sizes = lines_alloc(tree->node_count * sizeof *tree->sizes);
-    if (!tree->sizes)
-        return out_of_memory(err);
-    for (size_t i = tree->node_count; i-- > 0;) {
-        const kdtree_node *node = &tree->nodes[i];
-        size_t children = (size_t)(kdtree_children(tree, node) - tree->nodes);
-        tree->sizes[i] = 1 + (kdtree_is_leaf(node) || i == 1 ? 0 : tree->sizes[children] + tree->sizes[children + 1]);
-    }
-    tree->sizes[1] = 0;
     return BASE_OK;
 }
 
@@ -474,10 +442,6 @@ static base_status build(builder *b, base_error *err)
         status = place_nodes(b, err);
     if (status == BASE_OK)
         status = write_records(b, count, err);
-    if (status == BASE_OK)
-        status = write_sizes(tree, err);
-    if (status == BASE_OK)
-        sum_up(b, &root);
     return status;
 }
 

@@ -5,7 +5,7 @@
 #include "kernels/accel/kdtree.h"
 
 /**
- * Fill in everything but the components and sets.
+ * Fill in the root's box, nodes, lists, records and degenerate_count.
  *
  * @param tree  zeroed; on failure it holds what kdtree_destroy frees
  *

@@ -55,10 +55,11 @@ static float round_up(double x)
 static bool shrink(const corner *corners, int count, kdtree_ref *ref)
 {
     for (int axis = 0; axis < 3; axis++) {
-        double low = INFINITY, high = -INFINITY;
+        double low = HUGE_VAL, high = -HUGE_VAL;
         for (int i = 0; i < count; i++) {
-            low = fmin(low, corners[i].p[axis] - corners[i].margin);
-            high = fmax(high, corners[i].p[axis] + corners[i].margin);
+            double below = corners[i].p[axis] - corners[i].margin, above = corners[i].p[axis] + corners[i].margin;
+            low = below < low ? below : low;
+            high = above > high ? above : high;
         }
         float min = round_down(low), max = round_up(high);
         if (min > ref->box.min[axis])

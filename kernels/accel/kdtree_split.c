@@ -192,7 +192,7 @@ kdtree_split kdtree_split_at_plane(const kdtree_cell *cell, const kdtree_ref *re
 
 kdtree_split kdtree_split_cheapest(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_bounds *b, size_t count, int axis)
 {
-    kdtree_split best = {.axis = -1, .cost = INFINITY};
+    kdtree_split best = {.axis = -1, .cost = HUGE_VAL};
     surfaces s = surfaces_of(cell, axis);
     uint32_t first = key_of(cell->min[axis]), last = key_of(cell->max[axis]);
     size_t low = 0, high = 0, flat = 0; /* bounds below the plane; of high and flat, then, also those in it */

@@ -111,14 +111,6 @@ static base_status write_leaf(build *b, const pending *p, base_error *err)
     };
     for (size_t i = 0; i < p->count; i++)
         out->ids[out->id_count++] = refs[i].id;
-    bool flat = false;
-    for (int axis = 0; axis < 3; axis++)
-        flat |= p->cell.min[axis] == p->cell.max[axis];
-    out->empty_count += p->count == 0;
-    out->flat_count += flat;
-    out->covered_count += covered;
-    out->depth = p->depth > out->depth ? p->depth : out->depth;
-    out->cost += kdtree_cell_half_area(&p->cell) * (double)p->count;
     return BASE_OK;
 }
 
@@ -143,7 +135,6 @@ static base_status divide(build *b, const kdtree_split *split, pending *now, bas
         memcpy(w->stack + now->begin + counts[1], w->halves[0], counts[0] * sizeof *w->stack);
     *node_of(b, now) = (kdtree_node){.link = (uint32_t)(8 * pair) | (uint32_t)split->axis, .split = split->plane};
     out->pair_count++;
-    out->cost += kdtree_cell_half_area(&now->cell) * b->rules->traversal_cost;
     b->waiting[b->waiting_count++] =
         (pending){kdtree_cell_half(&now->cell, split->axis, split->plane, 1), now->begin, counts[1], now->depth + 1, pair + 1};
     *now = (pending){kdtree_cell_half(&now->cell, split->axis, split->plane, 0), now->begin + counts[1], counts[0], now->depth + 1, pair};

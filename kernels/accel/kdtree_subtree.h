@@ -20,9 +20,6 @@ typedef struct kdtree_subtree {
     uint32_t *ids;      /* of triangles, list after list; owned */
     size_t pair_count, pair_room;
     size_t id_count, id_room;
-    size_t empty_count, flat_count, covered_count;
-    unsigned depth; /* deepest leaf, edges from the root of the whole tree */
-    double cost;    /* half area of inner nodes times the cost of one, plus that of leaves times their triangles */
 } kdtree_subtree;
 
 /* Memory of one thread, kept from subtree to subtree. Zero at first. */

@@ -1,18 +1,6 @@
 #include "reports/views/packet_frusta.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "reports/paper.h"
-
-static const char *const paper_scenes[] = {"T-Rex (69K tri)", "Fern (212K tri)", "Call of Juarez Saloon (60K tri)",
-                                           "Fairy Forest (174K tri)"};
-enum { PAPER_SCENES = sizeof paper_scenes / sizeof *paper_scenes };
-static const double paper_rays = 1024.0 * 1024.0;
-
-/* Metrics of mft_table1.csv in the order of the columns. */
-static const char *const paper_metrics[] = {"tris_accessed", "tris_after_culling", "aabb_tests", "isec_tests_16wide", "cycles"};
-enum { METRICS = sizeof paper_metrics / sizeof *paper_metrics };
+#include "reports/views/mft_paper.h"
 
 static void add_number_column(report_table *t, const char *name, int decimals)
 {
@@ -31,19 +19,19 @@ static void add_side(report_table *t, const char *scene, const char *algorithm, 
     report_table_add_real(t, (double)s->issue_cycles / (double)s->rays);
 }
 
-static void add_paper_side(report_table *t, const char *scene, const char *algorithm)
+static void add_paper_side(report_table *t, size_t scene, mft_algorithm algorithm)
 {
-    double cycles = report_paper_find("mft_table1", scene, algorithm, "cycles");
+    const mft_paper_row row = mft_paper_row_of(scene, algorithm);
     report_table_begin_row(t);
-    report_table_add_text(t, scene);
-    report_table_add_text(t, algorithm);
-    report_table_add_real(t, paper_rays);
-    for (int i = 0; i + 1 < METRICS; i++)
-        report_table_add_real(t, report_paper_find("mft_table1", scene, algorithm, paper_metrics[i]));
+    report_table_add_text(t, mft_scenes[scene].name);
+    report_table_add_text(t, mft_algorithm_names[algorithm]);
+    report_table_add_real(t, mft_paper_pixels);
+    for (int m = 0; m < MFT_CYCLES; m++)
+        report_table_add_real(t, row.value[m]);
     report_table_add_missing(t); /* the models' */
     report_table_add_missing(t);
-    report_table_add_real(t, cycles);
-    report_table_add_real(t, cycles / paper_rays);
+    report_table_add_real(t, row.value[MFT_CYCLES]);
+    report_table_add_real(t, row.value[MFT_CYCLES] / mft_paper_pixels);
 }
 
 report_table *packet_frusta_counts(const packet_frusta_row *rows, size_t count, const char *caption)
@@ -63,9 +51,9 @@ report_table *packet_frusta_counts(const packet_frusta_row *rows, size_t count, 
         add_side(t, rows[i].scene, "P-Frusta", &rows[i].frusta);
     }
     report_table_begin_group(t, "published: Benthin and Wald 2009, Table 1");
-    for (int i = 0; i < PAPER_SCENES; i++) {
-        add_paper_side(t, paper_scenes[i], "P-Packet");
-        add_paper_side(t, paper_scenes[i], "P-Frusta");
+    for (size_t i = 0; i < MFT_SCENES; i++) {
+        add_paper_side(t, i, MFT_P_PACKET);
+        add_paper_side(t, i, MFT_P_FRUSTA);
     }
     report_table_add_note(t, "The built-in scenes stand in for the paper's: they share the number of triangles and nothing else, and hold "
                              "other cameras. The paper's cycles are those of its own simulator of a core, of which it tells little; the issue "
@@ -103,14 +91,14 @@ report_table *packet_frusta_reductions(const packet_frusta_row *rows, size_t cou
         report_table_add_missing(t); /* published */
     }
     report_table_begin_group(t, "published: Benthin and Wald 2009, Table 1");
-    for (int i = 0; i < PAPER_SCENES; i++) {
+    for (size_t i = 0; i < MFT_SCENES; i++) {
+        const mft_paper_row packet = mft_paper_row_of(i, MFT_P_PACKET), frusta = mft_paper_row_of(i, MFT_P_FRUSTA);
         report_table_begin_row(t);
-        report_table_add_text(t, paper_scenes[i]);
-        for (int m = 0; m < METRICS; m++) {
-            for (int model = 0; m + 1 == METRICS && model < 2; model++)
+        report_table_add_text(t, mft_scenes[i].name);
+        for (int m = 0; m < MFT_METRICS; m++) {
+            for (int model = 0; m == MFT_CYCLES && model < 2; model++)
                 report_table_add_missing(t); /* the models' */
-            report_table_add_real(t, report_paper_find("mft_table1", paper_scenes[i], "P-Packet", paper_metrics[m]) /
-                                         report_paper_find("mft_table1", paper_scenes[i], "P-Frusta", paper_metrics[m]));
+            report_table_add_real(t, packet.value[m] / frusta.value[m]);
         }
     }
     report_table_add_note(t, "Published ratios are formed from the published, rounded counts; two cells of the Fern and Fairy Forest rows are "

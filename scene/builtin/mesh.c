@@ -2,37 +2,6 @@
 
 #include <math.h>
 
-static scene_point point_add(scene_point a, scene_point b)
-{
-    return scene_at(a.x + b.x, a.y + b.y, a.z + b.z);
-}
-
-static scene_point point_sub(scene_point a, scene_point b)
-{
-    return scene_at(a.x - b.x, a.y - b.y, a.z - b.z);
-}
-
-static scene_point point_scale(scene_point a, double f)
-{
-    return scene_at(a.x * f, a.y * f, a.z * f);
-}
-
-static scene_point point_cross(scene_point a, scene_point b)
-{
-    return scene_at(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-
-static scene_point point_unit(scene_point a)
-{
-    return point_scale(a, 1.0 / sqrt(a.x * a.x + a.y * a.y + a.z * a.z));
-}
-
-/* a*x + b*y */
-static scene_point point_mix(scene_point x, double a, scene_point y, double b)
-{
-    return point_add(point_scale(x, a), point_scale(y, b));
-}
-
 scene_mesh scene_mesh_begin(scene *target, uint64_t seed, base_error *err)
 {
     scene_mesh m = {.target = target, .err = err, .status = BASE_OK, .random = {seed}};
@@ -87,7 +56,7 @@ void scene_direction(double turns, double *cosine, double *sine)
 
 static scene_point frame_vector(const scene_frame *f, scene_point p)
 {
-    return point_add(point_mix(f->x, p.x, f->y, p.y), point_scale(f->z, p.z));
+    return scene_point_add(scene_point_mix(f->x, p.x, f->y, p.y), scene_point_scale(f->z, p.z));
 }
 
 scene_frame scene_mesh_enter(scene_mesh *m, double x, double y, double z, double turns)
@@ -95,9 +64,9 @@ scene_frame scene_mesh_enter(scene_mesh *m, double x, double y, double z, double
     scene_frame before = m->frame;
     double c, s;
     scene_direction(turns, &c, &s);
-    m->frame.origin = point_add(before.origin, frame_vector(&before, scene_at(x, y, z)));
-    m->frame.x = point_mix(before.x, c, before.z, -s);
-    m->frame.z = point_mix(before.x, s, before.z, c);
+    m->frame.origin = scene_point_add(before.origin, frame_vector(&before, scene_at(x, y, z)));
+    m->frame.x = scene_point_mix(before.x, c, before.z, -s);
+    m->frame.z = scene_point_mix(before.x, s, before.z, c);
     return before;
 }
 
@@ -106,8 +75,8 @@ void scene_mesh_pitch(scene_mesh *m, double turns)
     scene_frame before = m->frame;
     double c, s;
     scene_direction(turns, &c, &s);
-    m->frame.y = point_mix(before.y, c, before.z, s);
-    m->frame.z = point_mix(before.y, -s, before.z, c);
+    m->frame.y = scene_point_mix(before.y, c, before.z, s);
+    m->frame.z = scene_point_mix(before.y, -s, before.z, c);
 }
 
 void scene_mesh_roll(scene_mesh *m, double turns)
@@ -115,8 +84,8 @@ void scene_mesh_roll(scene_mesh *m, double turns)
     scene_frame before = m->frame;
     double c, s;
     scene_direction(turns, &c, &s);
-    m->frame.x = point_mix(before.x, c, before.y, s);
-    m->frame.y = point_mix(before.x, -s, before.y, c);
+    m->frame.x = scene_point_mix(before.x, c, before.y, s);
+    m->frame.y = scene_point_mix(before.x, -s, before.y, c);
 }
 
 static int same_vertex(const float a[3], const float b[3])
@@ -131,7 +100,7 @@ void scene_mesh_triangle(scene_mesh *m, scene_point a, scene_point b, scene_poin
     scene_point corner[3] = {a, b, c};
     scene_triangle t;
     for (int i = 0; i < 3; i++) {
-        scene_point p = point_add(m->frame.origin, frame_vector(&m->frame, corner[i]));
+        scene_point p = scene_point_add(m->frame.origin, frame_vector(&m->frame, corner[i]));
         t.v[i][0] = (float)p.x;
         t.v[i][1] = (float)p.y;
         t.v[i][2] = (float)p.z;
@@ -192,20 +161,20 @@ void scene_mesh_room(scene_mesh *m, scene_point low, scene_point high, unsigned 
 static void across_axes(scene_point d, scene_point *side, scene_point *over)
 {
     scene_point up = fabs(d.y) < 0.9 ? scene_at(0, 1, 0) : scene_at(1, 0, 0);
-    *side = point_unit(point_cross(up, d));
-    *over = point_cross(d, *side);
+    *side = scene_point_unit(scene_point_cross(up, d));
+    *over = scene_point_cross(d, *side);
 }
 
 void scene_mesh_beam(scene_mesh *m, scene_point a, scene_point b, double width, double depth, int with_ends)
 {
-    scene_point along = point_sub(b, a), side, over;
-    double length = sqrt(along.x * along.x + along.y * along.y + along.z * along.z);
-    across_axes(point_unit(along), &side, &over);
+    scene_point along = scene_point_sub(b, a), side, over;
+    double length = scene_point_length(along);
+    across_axes(scene_point_unit(along), &side, &over);
     scene_frame before = m->frame;
-    m->frame.origin = point_add(before.origin, frame_vector(&before, a));
+    m->frame.origin = scene_point_add(before.origin, frame_vector(&before, a));
     m->frame.x = frame_vector(&before, side);
     m->frame.y = frame_vector(&before, over);
-    m->frame.z = frame_vector(&before, point_unit(along));
+    m->frame.z = frame_vector(&before, scene_point_unit(along));
     unsigned faces = SCENE_FACE_LEFT | SCENE_FACE_RIGHT | SCENE_FACE_BOTTOM | SCENE_FACE_TOP;
     scene_mesh_box(m, scene_at(-width / 2, -depth / 2, 0), scene_at(width / 2, depth / 2, length),
         with_ends ? SCENE_FACES_ALL : faces);
@@ -242,22 +211,22 @@ static scene_point ring_point(scene_point centre, scene_point side, scene_point 
 {
     double c, s;
     scene_direction((double)(k % sides) / sides, &c, &s);
-    return point_add(centre, point_mix(side, c * radius, over, s * radius));
+    return scene_point_add(centre, scene_point_mix(side, c * radius, over, s * radius));
 }
 
 void scene_mesh_pipe(scene_mesh *m, const scene_point *path, size_t count, double radius, unsigned sides)
 {
     scene_point side = {0, 0, 0}, over = {0, 0, 0};
     for (size_t i = 0; i < count; i++) {
-        scene_point along = point_unit(point_sub(path[i + 1 < count ? i + 1 : i], path[i > 0 ? i - 1 : i]));
+        scene_point along = scene_point_unit(scene_point_sub(path[i + 1 < count ? i + 1 : i], path[i > 0 ? i - 1 : i]));
         scene_point last_side = side, last_over = over;
         if (i == 0) {
             across_axes(along, &side, &over);
             continue;
         }
         /* carry the ring along with the least twist: over = along x side, side again perpendicular to both */
-        over = point_unit(point_cross(along, side));
-        side = point_cross(over, along);
+        over = scene_point_unit(scene_point_cross(along, side));
+        side = scene_point_cross(over, along);
         for (unsigned k = 0; k < sides; k++)
             scene_mesh_quad(m, ring_point(path[i - 1], last_side, last_over, radius, k, sides),
                 ring_point(path[i - 1], last_side, last_over, radius, k + 1, sides),
@@ -274,7 +243,7 @@ void scene_mesh_rope(scene_mesh *m, scene_point a, scene_point b, double sag, do
         steps = 64;
     for (unsigned i = 0; i <= steps; i++) {
         double t = (double)i / steps;
-        path[i] = point_mix(a, 1.0 - t, b, t);
+        path[i] = scene_point_mix(a, 1.0 - t, b, t);
         path[i].y -= 4.0 * sag * t * (1.0 - t);
     }
     scene_mesh_pipe(m, path, (size_t)steps + 1, radius, sides);

@@ -16,16 +16,8 @@
 
 #include "lrbni/base/random.h"
 #include "lrbni/base/status.h"
+#include "scene/builtin/point.h"
 #include "scene/scene.h"
-
-typedef struct scene_point {
-    double x, y, z;
-} scene_point;
-
-static inline scene_point scene_at(double x, double y, double z)
-{
-    return (scene_point){x, y, z};
-}
 
 /* A place and three axes, right-handed, so that fronts stay fronts; orthonormal but where a shape needs a shear. */
 typedef struct scene_frame {

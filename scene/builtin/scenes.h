@@ -11,8 +11,18 @@
  */
 base_status scene_build_rooms(scene *s, base_error *err);
 base_status scene_build_hall(scene *s, base_error *err);
+base_status scene_build_creature(scene *s, base_error *err);
 base_status scene_build_atrium(scene *s, base_error *err);
+base_status scene_build_forest(scene *s, base_error *err);
+base_status scene_build_fern(scene *s, base_error *err);
 
-enum { SCENE_ROOMS_TRIANGLES = 804, SCENE_HALL_TRIANGLES = 60000, SCENE_ATRIUM_TRIANGLES = 76000 };
+enum {
+    SCENE_ROOMS_TRIANGLES = 804,
+    SCENE_HALL_TRIANGLES = 60000,
+    SCENE_CREATURE_TRIANGLES = 69000,
+    SCENE_ATRIUM_TRIANGLES = 76000,
+    SCENE_FOREST_TRIANGLES = 174000,
+    SCENE_FERN_TRIANGLES = 212000
+};
 
 #endif

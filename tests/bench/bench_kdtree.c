@@ -4,7 +4,8 @@
  *
  * A SCENE is what scene_open takes; without any: all built-in scenes. Rows of CSV on stdout, the best of N builds
  * (default 1) with all of the host's threads; `bytes` are those that a kernel's traversal reads: nodes, lists and
- * records. With --rules also trees with one rule off or changed. Lines of '#' name the compiler and the CPU.
+ * records; `inner_ray`, `leaves_ray` and `tests_ray` are visits and triangle tests of a primary ray of the first camera, 128x128
+ * of them traced one by one. With --rules also trees with one rule off or changed. Lines of '#' name the compiler and the CPU.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,6 +16,9 @@
 #include "scene/builtin.h"
 #include "scene/scene.h"
 #include "tests/bench/measure.h"
+#include "tests/kernels/accel/kd_ray.h"
+
+enum { SIZE = 128 }; /* pixels on an edge of the image */
 
 static int failed(const base_error *err)
 {
@@ -32,11 +36,27 @@ static int bench_bvh(const scene *s, int repeat)
     if (measure_bvh_build(s, &options, repeat, &best, &tree, &err) != BASE_OK)
         return failed(&err);
     size_t bytes = tree->node_count * sizeof *tree->nodes + tree->record_count * sizeof *tree->records;
-    printf("bvh,%s,%zu,%u,%.3f,%zu,%zu,0,0,0,0,%zu,%u,%.3f,%zu\n", s->name, s->triangle_count, options.jobs, best, tree->inner_count,
+    printf("bvh,%s,%zu,%u,%.3f,%zu,%zu,0,0,0,0,%zu,%u,%.3f,%zu,,,\n", s->name, s->triangle_count, options.jobs, best, tree->inner_count,
            tree->leaf_count, tree->record_count, tree->depth, tree->sah_cost, bytes);
     fflush(stdout);
     bvh_destroy(&tree);
     return 0;
+}
+
+/* Visits of all primary rays of an image. */
+static kd_ray_counts trace(const scene *s, const kdtree *tree)
+{
+    kd_ray_counts n = {0};
+    scene_primary_rays rays = scene_camera_rays(&s->cameras[0], SIZE, SIZE);
+    for (int pixel = 0; pixel < SIZE * SIZE; pixel++) {
+        single_ray r;
+        for (int a = 0; a < 3; a++) {
+            r.o[a] = (double)rays.origin[a];
+            r.d[a] = (double)rays.d00[a] + pixel % SIZE * (double)rays.dx[a] + pixel / SIZE * (double)rays.dy[a];
+        }
+        kd_ray_closest(tree, &r, &n);
+    }
+    return n;
 }
 
 static int bench_kdtree(const scene *s, const char *row, const kdtree_options *options, int repeat)
@@ -53,9 +73,11 @@ static int bench_kdtree(const scene *s, const char *row, const kdtree_options *o
         best = i == 0 || seconds < best ? seconds : best;
     }
     size_t bytes = tree->node_count * sizeof *tree->nodes + tree->list_count * sizeof *tree->lists + tree->record_count * sizeof *tree->records;
-    printf("%s,%s,%zu,%u,%.3f,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%u,%.3f,%zu\n", row, s->name, s->triangle_count, options->jobs, best,
+    kd_ray_counts n = trace(s, tree);
+    const double rays = SIZE * SIZE;
+    printf("%s,%s,%zu,%u,%.3f,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%u,%.3f,%zu,%.2f,%.2f,%.2f\n", row, s->name, s->triangle_count, options->jobs, best,
            tree->inner_count, tree->leaf_count, tree->empty_count, tree->flat_count, tree->covered_count, tree->enclosed_count,
-           tree->list_count, tree->depth, tree->sah_cost, bytes);
+           tree->list_count, tree->depth, tree->sah_cost, bytes, (double)n.inner / rays, (double)n.leaves / rays, (double)n.tests / rays);
     fflush(stdout);
     kdtree_destroy(&tree);
     return 0;
@@ -117,7 +139,7 @@ int main(int argc, char **argv)
         return 2;
     }
     measure_print_head();
-    printf("row,scene,triangles,jobs,seconds,inner,leaves,empty,flat,covered,enclosed,references,depth,sah_cost,bytes\n");
+    printf("row,scene,triangles,jobs,seconds,inner,leaves,empty,flat,covered,enclosed,references,depth,sah_cost,bytes,inner_ray,leaves_ray,tests_ray\n");
     for (int i = first; i < argc; i++)
         bad |= bench_scene(argv[i], repeat, rules);
     size_t count;

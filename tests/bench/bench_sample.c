@@ -63,15 +63,13 @@ static base_status bench_all(const sim_machine *machine, run_options *options, d
 {
     static const char *const kernels[] = {"packet16-primary", "mft-primary"};
     size_t scenes;
-    const scene_builtin *list = scene_builtin_list(&scenes);
+    const char *const *spec = scene_builtin_usual(&scenes);
     base_status status = BASE_OK;
     for (size_t i = 0; status == BASE_OK && i < 2 * scenes; i++) {
-        char spec[128];
         scene *s = NULL;
         options->kernel = kernel_find(kernels[i % 2]);
         options->params = options->kernel->defaults;
-        snprintf(spec, sizeof spec, "builtin:%s", list[i / 2].name);
-        status = scene_open(spec, &s, err);
+        status = scene_open(spec[i / 2], &s, err);
         if (status == BASE_OK)
             status = bench_scene(s, machine, options, error, count, err);
         scene_destroy(&s);

@@ -1,12 +1,13 @@
 """lanetrace report from outside: the suites, their files, bad input. test_report.py LANETRACE [--no-images]; TAP on stdout."""
 import json
 import os
+import subprocess
 import sys
 
-from program import fails, gltf, main, run, unread
+from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-primary']
+SUITES = ['mft-primary', 'models', 'mft-table1']
 
 
 def own_scene(folder):
@@ -55,6 +56,99 @@ def mft_primary__own_scene__every_form(folder):
     assert page.count('<table') == 2 and (not HAVE_IMAGES or page.count('<img') == 6) and 'http' not in page.replace('http-equiv', '')
     if HAVE_IMAGES:
         assert os.path.exists(out + '/own_scene.png') and os.path.exists(out + '/own_scene-2.png')
+
+
+def tables_of(out, suite):
+    """The tables by title, each a list of rows by column."""
+    tables = json.load(open('%s/%s.json' % (out, suite), encoding='utf-8'))['tables']
+    return {t['title']: [dict(zip([c['name'] for c in t['columns']], row)) for row in t['rows']] for t in tables}
+
+
+def report(folder, suite, *arguments):
+    """Run a suite; its tables. Text on stdout and in the file are the same, and every table is in the page and has its CSV file."""
+    out = folder + '/out'
+    result = run('report', suite, '--out', out, *arguments)
+    assert result.returncode == 0, result.stderr
+    assert open('%s/%s.txt' % (out, suite), encoding='utf-8').read() == result.stdout
+    tables = tables_of(out, suite)
+    assert open('%s/%s.html' % (out, suite), encoding='utf-8').read().count('<table') == len(tables)
+    assert sum(name.startswith(suite) and name.endswith('.csv') for name in os.listdir(out)) == len(tables)
+    return tables
+
+
+def models__own_scene__cycles_of_every_model_as_run_alone(folder):
+    scene = ['--scene', own_scene(folder), '--size', '64x48']
+    if unread(scene[1]):
+        return unread(scene[1])
+    rows = report(folder, 'models', *scene, '--kernel', 'mft-primary')['Models: host time, and error of the cycles']
+    by_model = {row['model']: row for row in rows}
+    assert len(rows) == len(by_model) == 10 and {row['kernel'] for row in rows} == {'mft-primary'}
+    for name, options in {'count': ['--model', 'count'], 'issue': ['--model', 'issue'], 'core': [], 'core, without threads': ['--set', 'threads=1'],
+                          'core, without caches': ['--set', 'l2.latency=3', '--set', 'memory.latency=3', '--set', 'l2.cycles_per_line=0',
+                                                   '--set', 'memory.cycles_per_line=0', '--set', 'memory.chip_bytes_per_cycle=0'],
+                          'core, without mispredictions': ['--set', 'branch.mispredict_penalty=0', '--set', 'branch.btb_miss_penalty=0']}.items():
+        assert by_model[name]['cycles'] == stats_of('mft-primary', *scene, *options)['cycles']['total'], name
+        assert abs(by_model[name]['error'] - 100 * (by_model[name]['cycles'] / by_model['core']['cycles'] - 1)) < 0.006
+    assert by_model['native']['cycles'] is None and by_model['native']['x native'] == 1
+    assert all(row['host time'] > 0 for row in rows) and by_model['core, without threads']['changed'] == 'machine.threads=1'
+    return None
+
+
+def models__builtin_scene__cycles_do_not_depend_on_jobs(folder):
+    arguments = ['--scene', 'builtin:rooms-804', '--size', '48x48', '--no-pictures', '--set', 'l1.latency=4']
+    one, two = (report(folder + '/' + jobs, 'models', *arguments, '--jobs', jobs) for jobs in '12' if not os.mkdir(folder + '/' + jobs))
+    title = 'Models: host time, and error of the cycles'
+    assert [(r['kernel'], r['model'], r['cycles']) for r in one[title]] == [(r['kernel'], r['model'], r['cycles']) for r in two[title]]
+    assert any('memory.latency=4' in r['changed'] for r in one[title])
+    assert not any(name.endswith('.png') for name in os.listdir(folder + '/1/out'))
+    fails(['report', 'models', '--kernel', 'mft-primry', '--out', folder + '/no'], 'mft-primry')
+    fails(['report', 'models', '--set', 'cores=2', '--out', folder + '/no'], 'cores')
+
+
+TABLE1 = 'MFT Table 1: measured, and published by Benthin and Wald 2009'
+
+
+def mft_table1__builtin_scenes__as_run_alone_and_published_beside(folder):
+    pictures = [] if HAVE_IMAGES else ['--no-pictures']
+    tables = report(folder, 'mft-table1', '--scene', 'builtin:hall-60k', '--scene', 'builtin:rooms-804', '--size', '48x40', *pictures)
+    rows = tables[TABLE1]
+    published = [row for row in rows if row['basis'] == 'published']
+    assert len(published) == 16 and len({(row['scene'], row['algorithm']) for row in published}) == 16
+    for kernel, algorithm in (('packet16-primary', 'P-Packet'), ('mft-primary', 'P-Frusta')):
+        stats = stats_of(kernel, '--scene', 'builtin:rooms-804', '--size', '48x40', '--param', 'cull_backface=1')
+        row = next(r for r in rows if r['scene'] == 'rooms-804' and r['algorithm'] == algorithm)
+        assert row['cycles'] == stats['cycles']['total'] and row['AABB tests'] == stats['counts']['aabb_tests']
+    at = next(i for i, r in enumerate(rows) if r['scene'] == 'hall-60k' and r['algorithm'] == 'P-Frusta')
+    assert rows[at + 1]['scene'] == 'Call of Juarez Saloon (60K tri)' and rows[at + 1]['cycles'] == 31500000
+    doubtful = next(r for r in published if r['scene'].startswith('Fern') and r['algorithm'] == 'S-Packet')
+    assert doubtful['doubtful readings'] == 'uncertain: after culling, cycles'
+    reductions = tables['Reductions: packets / frusta']
+    ours = next(r for r in reductions if r['scene'] == 'hall-60k' and r['rays'] == 'primary rays')
+    packet, frusta = (next(r for r in rows if r['scene'] == 'hall-60k' and r['algorithm'] == a) for a in ('P-Packet', 'P-Frusta'))
+    assert abs(ours['cycles'] - packet['cycles'] / frusta['cycles']) < 0.006
+    assert 'P-Frusta has' in tables['Where reductions differ'][0]['in words']
+    if HAVE_IMAGES:
+        assert os.path.exists(folder + '/out/hall-60k-mft-primary-core-cycles.png')
+
+
+def mft_table1__own_scene__sampled(folder):
+    scene = own_scene(folder)
+    if unread(scene):
+        return unread(scene)
+    tables = report(folder, 'mft-table1', '--scene', scene, '--size', '64x64', '--error', '0.1', '--no-pictures')
+    assert [r['basis'] for r in tables[TABLE1]] == ['measured'] * 2 + ['published'] * 16 and tables['Where reductions differ'] == []
+    fails(['report', 'mft-table1', '--error', '1.5', '--out', folder + '/no'], '--error')
+    fails(['report', 'mft-table1', '--error', 'x', '--out', folder + '/no'], '--error')
+    return None
+
+
+def plot__no_gnuplot__tables_written_and_a_line(folder):
+    out = folder + '/out'
+    words = [PROGRAM, 'report', 'models', '--scene', 'builtin:rooms-804', '--size', '16x16', '--kernel', 'mft-primary', '--out', out]
+    result = subprocess.run(words, capture_output=True, text=True, env={'PATH': folder})
+    assert result.returncode == 0 and result.stderr.count('\n') == 1 and 'gnuplot' in result.stderr, result.stderr
+    assert 'there was no gnuplot' in open(out + '/models.html', encoding='utf-8').read() and os.path.exists(out + '/models.csv')
+    assert not os.path.exists(out + '/models-speed-error.png')
 
 
 sys.exit(main(globals()))

@@ -14,7 +14,7 @@
 #include "tests/hard/bundle.h"
 #include "tests/hard/rays.h"
 #include "tests/hard/shapes.h"
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 
 static const char *kernels[2] = {"packet16-primary", "mft-primary"};
 

@@ -18,7 +18,7 @@
 #include "tests/hard/shapes.h"
 #include "tests/kernels/accel/soup.h"
 #include "tests/kernels/trace.h"
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 
 static const char *kernels[2] = {"packet16-primary", "mft-primary"};
 

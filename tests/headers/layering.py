@@ -14,13 +14,14 @@ import sys
 RULES = {
     "lrbni": ["lrbni/"],
     "scene": ["lrbni/base/", "scene/"],
+    "exact": ["lrbni/base/", "scene/", "exact/"],
     "kernels": ["lrbni/", "scene/", "kernels/"],
     "sim": ["lrbni/", "sim/"],
     "traces": ["lrbni/", "traces/"],
     "reports": ["lrbni/base/", "lrbni/op_table.h", "sim/machine.h", "sim/cycles.h", "sim/issue.h", "sim/count.h", "reports/"],
     "lanetrace": ["lrbni/", "sim/", "reports/", "lanetrace/"],
-    "cli": ["lrbni/", "scene/", "kernels/", "sim/", "traces/", "reports/", "cli/"],
-    "tests": ["lrbni/", "scene/", "kernels/", "sim/", "traces/", "reports/", "lanetrace/", "cli/", "tests/"],
+    "cli": ["lrbni/", "scene/", "exact/", "kernels/", "sim/", "traces/", "reports/", "cli/"],
+    "tests": ["lrbni/", "scene/", "exact/", "kernels/", "sim/", "traces/", "reports/", "lanetrace/", "cli/", "tests/"],
 }
 # lrbni/base is the root of the tree: it uses nothing else, lrbni's other headers included.
 INNER_RULES = {"lrbni/base": ["lrbni/base/"]}

@@ -2,7 +2,8 @@
  * those of Embree, with exact arithmetic as the judge (O1, O2).
  *
  * usage: test_agreement SIZE OF-OTHER-VIEWS [SCENE...]: pictures are SIZE x SIZE from the scene's own camera and smaller
- * from the others; scenes are names of built-in ones and of files in $LANETRACE_SCENES, all of them if none is named.
+ * from the others; scenes are names of built-in ones and of files in $LANETRACE_SCENES; if none is named, the usual built-in
+ * ones and all files.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +22,7 @@
 #include "tests/kernels/trace.h"
 #include "tests/kernels/views.h"
 #include "tests/oracles/embree_oracle.h"
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 #include "tests/oracles/hit_judge.h"
 
 enum { JOBS = 2, MOST_SCENES = 64, SAMPLE = 499 };
@@ -29,6 +30,7 @@ enum { JOBS = 2, MOST_SCENES = 64, SAMPLE = 499 };
 typedef struct subject {
     char spec[4096]; /* what scene_open takes; empty: not there */
     char name[256];  /* of the test case */
+    int named_only;  /* run only if its name is given */
     unsigned size, other_size;
 } subject;
 
@@ -204,11 +206,15 @@ static size_t add_files(subject *subjects, size_t count)
 
 static size_t all_subjects(subject *subjects)
 {
-    size_t builtins, count = 0;
+    size_t builtins, usuals, count = 0;
     const scene_builtin *list = scene_builtin_list(&builtins);
+    const char *const *usual = scene_builtin_usual(&usuals);
     for (; count < builtins; count++) {
         snprintf(subjects[count].spec, sizeof subjects->spec, "builtin:%s", list[count].name);
         snprintf(subjects[count].name, sizeof subjects->name, "%s", list[count].name);
+        subjects[count].named_only = 1;
+        for (size_t i = 0; i < usuals; i++)
+            subjects[count].named_only &= strcmp(usual[i], subjects[count].spec) != 0;
     }
     return add_files(subjects, count);
 }
@@ -218,7 +224,7 @@ static int wanted(const subject *sub, int argc, char **argv)
     for (int i = 3; i < argc; i++)
         if (strcmp(argv[i], sub->name) == 0)
             return 1;
-    return argc <= 3;
+    return argc <= 3 && !sub->named_only;
 }
 
 int main(int argc, char **argv)

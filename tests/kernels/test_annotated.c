@@ -3,7 +3,6 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -104,17 +103,15 @@ static size_t compare(const stream *plain, const stream *lines, size_t *far)
     return markers;
 }
 
-static void annotated__every_kernel_and_scene__the_stream_of_record_and_markers(void **state)
+static void annotated__every_kernel_usual_scenes__the_stream_of_record_and_markers(void **state)
 {
     size_t kernels, scenes, far = 0;
     const kernel_info *kernel = kernel_list(&kernels);
-    const scene_builtin *builtin = scene_builtin_list(&scenes);
+    const char *const *spec = scene_builtin_usual(&scenes);
     (void)state;
     for (size_t i = 0; i < scenes; i++) {
         scene *s = NULL;
-        char spec[128];
-        snprintf(spec, sizeof spec, "builtin:%s", builtin[i].name);
-        assert_int_equal(scene_open(spec, &s, NULL), BASE_OK);
+        assert_int_equal(scene_open(spec[i], &s, NULL), BASE_OK);
         for (size_t k = 0; k < kernels; k++) {
             bvh *tree = trace_tree(s, kernel[k].defaults.max_leaf);
             kernel_job *job = NULL;
@@ -170,7 +167,7 @@ static void sources__every_number__one_file(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(annotated__every_kernel_and_scene__the_stream_of_record_and_markers),
+        cmocka_unit_test(annotated__every_kernel_usual_scenes__the_stream_of_record_and_markers),
         cmocka_unit_test(sources__lines_and_functions__found),
         cmocka_unit_test(sources__every_number__one_file),
     };

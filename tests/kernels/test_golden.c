@@ -59,13 +59,11 @@ static golden golden_trace(void)
 {
     static golden g;
     size_t scenes;
-    const scene_builtin *list = scene_builtin_list(&scenes);
+    const char *const *spec = scene_builtin_usual(&scenes);
     g.count = 0;
     for (size_t i = 0; i < scenes; i++) {
         scene *s = NULL;
-        char spec[128];
-        snprintf(spec, sizeof spec, "builtin:%s", list[i].name);
-        assert_int_equal(scene_open(spec, &s, NULL), BASE_OK);
+        assert_int_equal(scene_open(spec[i], &s, NULL), BASE_OK);
         for (int k = 0; k < 2; k++) {
             const kernel_info *kernel = kernel_find(kernel_names[k]);
             bvh *tree = trace_tree(s, kernel->defaults.max_leaf);
@@ -75,9 +73,9 @@ static golden golden_trace(void)
                 trace_picture record = trace_run(&request);
                 request.level = LRB_NATIVE;
                 trace_picture native = trace_run(&request);
-                trace_assert_equal(&record, &native, spec);
+                trace_assert_equal(&record, &native, spec[i]);
                 assert_true(g.count < MOST_LINES);
-                add_line(&g, list[i].name, kernel, cull, &record);
+                add_line(&g, s->name, kernel, cull, &record);
                 trace_free(&record);
                 trace_free(&native);
             }

@@ -4,7 +4,6 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -51,25 +50,23 @@ static void check(const kernel_info *kernel, const char *scene_name, const sim_r
     }
 }
 
-static void registers__every_kernel_and_scene__nothing_spilled(void **state)
+static void registers__every_kernel_usual_scenes__nothing_spilled(void **state)
 {
     size_t kernels, scenes;
     const kernel_info *kernel = kernel_list(&kernels);
-    const scene_builtin *builtin = scene_builtin_list(&scenes);
+    const char *const *spec = scene_builtin_usual(&scenes);
     kernel_counts n = {{0}};
     (void)state;
     for (size_t i = 0; i < scenes; i++) {
         scene *s = NULL;
-        char spec[128];
-        snprintf(spec, sizeof spec, "builtin:%s", builtin[i].name);
-        assert_int_equal(scene_open(spec, &s, NULL), BASE_OK);
+        assert_int_equal(scene_open(spec[i], &s, NULL), BASE_OK);
         for (size_t k = 0; k < kernels; k++) {
             bvh *tree = trace_tree(s, kernel[k].defaults.max_leaf);
             for (unsigned cull = 0; cull < 2; cull++) {
                 kernel_params params = kernel[k].defaults;
                 params.cull_backface = cull;
                 sim_registers_stats stats = analyse(&kernel[k], &params, tree, s, &n);
-                check(&kernel[k], builtin[i].name, &stats);
+                check(&kernel[k], s->name, &stats);
             }
             bvh_destroy(&tree);
         }
@@ -82,7 +79,7 @@ static void registers__every_kernel_and_scene__nothing_spilled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(registers__every_kernel_and_scene__nothing_spilled),
+        cmocka_unit_test(registers__every_kernel_usual_scenes__nothing_spilled),
     };
     return cmocka_run_group_tests_name("registers", tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@
 #include <stdatomic.h>
 
 #include "lrbni/base/parallel.h"
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 
 enum { RAYS_PER_PIECE = 4096 };
 

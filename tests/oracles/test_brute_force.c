@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "tests/oracles/brute_force.h"
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 #include "tests/oracles/soup.h"
 
 /* Planes z = 0 (front towards +z), z = 1 twice, the second time with opposite winding, and one without area. */

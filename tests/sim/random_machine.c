@@ -31,7 +31,7 @@ static base_status set_cycles(sim_machine *machine, lrb_cost_class c, sim_class_
     return set(machine, c, key, value, err);
 }
 
-/* Fields of one class; latencies up to `reach`, at most 996: those to a shuffle and an address add up to 3, one to a branch 1. */
+/* Fields of one class; latencies up to `reach`, at most 996: those to a shuffle and an address add up to 3, one to a branch or mask 1. */
 static base_status set_class(base_random *random, sim_machine *machine, lrb_cost_class c, unsigned reach, base_error *err)
 {
     static const char *const pipes[] = {"U", "V", "UV", "UV"};
@@ -55,6 +55,8 @@ static base_status set_class(base_random *random, sim_machine *machine, lrb_cost
         status = set_cycles(machine, c, SIM_KEY_latency_to_branch, below(random, 2) ? 0 : below(random, latency + 2), err);
     if (!status)
         status = set_cycles(machine, c, SIM_KEY_latency_to_address, address, err);
+    if (!status)
+        status = set_cycles(machine, c, SIM_KEY_latency_to_mask, below(random, 3) ? below(random, latency + 2) : 0, err);
     if (!status)
         status = set_cycles(machine, c, SIM_KEY_blocking, blocking, err);
     return status;
@@ -164,8 +166,8 @@ void random_machine_print(const sim_machine *machine)
     printf("# issue_gap %u\n", machine->issue_gap);
     for (int c = 0; c < LRB_CLASS_COUNT; c++) {
         const sim_class_cost *k = &machine->cost[c];
-        printf("# %-16s pipes %-2s latency %u (shuffle %u, branch %u, address %u) throughput %u/2 blocking %u\n",
+        printf("# %-16s pipes %-2s latency %u (shuffle %u, branch %u, address %u, mask %u) throughput %u/2 blocking %u\n",
                lrb_cost_classes[c].name, pipes[k->pipes], k->latency, k->latency_to_shuffle, k->latency_to_branch,
-               k->latency_to_address, k->throughput, k->blocking);
+               k->latency_to_address, k->latency_to_mask, k->throughput, k->blocking);
     }
 }

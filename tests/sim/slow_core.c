@@ -123,13 +123,14 @@ static sim_consumer consumer_of(const lrb_event *e, int i)
     return read == 'a'   ? SIM_CONSUMER_ADDRESS
            : read == 'e' ? SIM_CONSUMER_SHUFFLE
            : read == 'b' ? SIM_CONSUMER_BRANCH
+           : read == 'm' ? SIM_CONSUMER_MASK
                          : SIM_CONSUMER_PLAIN;
 }
 
 static unsigned latency_to(const sim_class_cost *cost, sim_consumer consumer)
 {
     const unsigned latency[SIM_CONSUMERS] = {cost->latency, cost->latency_to_shuffle, cost->latency_to_branch,
-                                             cost->latency_to_address};
+                                             cost->latency_to_address, cost->latency_to_mask};
     return latency[consumer];
 }
 

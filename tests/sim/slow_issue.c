@@ -108,6 +108,16 @@ static bool moves_lanes(const lrb_event *e, int i)
     }
 }
 
+/* Whether source i is a mask: of a vector op the third, of others what their shape calls K; and the old destination of a gather. */
+static bool reads_mask(const lrb_event *e, int i)
+{
+    const char *name = lrb_shape_table[info_of(e)->shape].name, *from = strchr(name, '_');
+    const bool has_vectors = strchr(name, 'V');
+    if (has_vectors)
+        return i == 2 || (i == 0 && info_of(e)->shape == LRB_SHAPE_VIK_VKV) || (i == 3 && name[0] == 'V' && strstr(name, "_MVI"));
+    return from && i < 2 && (size_t)i + 1 < strlen(from) && from[i + 1] == 'K';
+}
+
 /* How an event reads its source i: event.h says which source is what. */
 static sim_consumer consumer_of(const lrb_event *e, int i)
 {
@@ -117,9 +127,9 @@ static sim_consumer consumer_of(const lrb_event *e, int i)
     if ((e->op & LRB_FORM_SWIZZLE && !is_load(e) && i == 1) || (is_vector_store(e) && i == 3) ||
         moves_lanes(e, i))
         return SIM_CONSUMER_SHUFFLE;
-    if ((info_of(e)->shape == LRB_SHAPE_B_F || info_of(e)->shape == LRB_SHAPE_B_K) && i == 0)
+    if (info_of(e)->shape == LRB_SHAPE_B_F && i == 0)
         return SIM_CONSUMER_BRANCH;
-    return SIM_CONSUMER_PLAIN;
+    return reads_mask(e, i) ? SIM_CONSUMER_MASK : SIM_CONSUMER_PLAIN;
 }
 
 static unsigned latency_to(const sim_class_cost *cost, sim_consumer consumer)
@@ -131,6 +141,8 @@ static unsigned latency_to(const sim_class_cost *cost, sim_consumer consumer)
         return cost->latency_to_branch;
     case SIM_CONSUMER_ADDRESS:
         return cost->latency_to_address;
+    case SIM_CONSUMER_MASK:
+        return cost->latency_to_mask;
     default:
         return cost->latency;
     }

@@ -114,6 +114,23 @@ static double chase(unsigned bytes, unsigned stride)
     return steady(1, 1, n, 1);
 }
 
+/* Cycles of a gather of n lines in the first level or the second, as a loop of executions and jknzd whose data the index of the next one
+ * hangs on. Of three passes over the lines the last counts. */
+static double gather_loop(unsigned bytes, unsigned n)
+{
+    const unsigned gathers = bytes / LINE / n, per_gather = 2 * n + 1;
+    lrb_event *e = all.events[0];
+    for (unsigned g = 0; g < 3 * gathers; g++) {
+        *e++ = op(LRB_OP_add_pi, g ? 2 : 0);
+        for (unsigned i = 0; i < n; i++) {
+            *e++ = (lrb_event){.op = LRB_OP_gatherd_ps | LRB_FORM_LINE, .mask = (uint16_t)((1u << 16 / n) - 1), .aux = (g % gathers * n + i) * LINE,
+                               .src = {0, (uint16_t)(2 * i + 1), i ? 2 : 0, i ? 2 : 0}};
+            *e++ = (lrb_event){.op = LRB_OP_jknzd, .mask = i + 1 < n, .src = {1}, .aux = 1};
+        }
+    }
+    return steady(1, 1, gathers * per_gather, per_gather) - 4; /* less the addition */
+}
+
 /* GB/s that `cores` cores read, each with `threads` threads that add up lines, `ahead` lines prefetched; 0: none. */
 static double read_bandwidth(unsigned cores, unsigned threads, unsigned ahead)
 {
@@ -200,6 +217,12 @@ static void published__each__within_its_tolerance(void **state)
         {"reading, 32 cores", "MM bandwidth", "GB/s", 112, read_bandwidth(32, 1, 32), 0.40},
         {"reading, 48 cores", "MM bandwidth", "GB/s", 150, read_bandwidth(48, 1, 32), 0.10},
         {"reading, 60 cores", "MM bandwidth", "GB/s", 160, read_bandwidth(60, 1, 32), 0.10},
+        {"gather of 1 line, first level", "HOF (recalled)", "cycles", 9.0, gather_loop(16384, 1), 0.30},
+        {"gather of 2 lines", "HOF (recalled)", "cycles", 8.4, gather_loop(16384, 2), 0.10},
+        {"gather of 4 lines", "HOF (recalled)", "cycles", 14.8, gather_loop(16384, 4), 0.15},
+        {"gather of 8 lines", "HOF (recalled)", "cycles", 23.2, gather_loop(16384, 8), 0.10},
+        {"gather of 16 lines", "HOF (recalled)", "cycles", 36.8, gather_loop(16384, 16), 0.10},
+        {"gather of 16 lines, second level", "HOF (recalled)", "cycles", 129.6, gather_loop(131072, 16), 2.0},
         {"stream from the second level", "MCC", "cycles/line", 3.06, l2_stream(), 0.10},
         {"30 x 8 matrix kernel, 4 threads", "BLIS", "% of peak", 93.75, blocked_product(), 0.10},
     };

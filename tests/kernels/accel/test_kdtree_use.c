@@ -1,5 +1,4 @@
-/* What a kd-tree is for: closest hits found through it are those of brute force, and nothing behind an earlier hit is
-   looked at. The traversal is plain double arithmetic on one ray, with planes widened by far more than its rounding. */
+/* What a kd-tree is for: closest hits found through it are those of brute force, with few tests. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,53 +7,10 @@
 
 #include <cmocka.h>
 
-#include <math.h>
-
 #include "kernels/accel/kdtree.h"
 #include "lrbni/base/random.h"
+#include "tests/kernels/accel/kd_ray.h"
 #include "tests/kernels/accel/soup.h"
-#include "tests/kernels/accel/single_ray.h"
-
-/* A far child that waits, and the stretch of the ray in it. */
-typedef struct waiting {
-    const kdtree_node *node;
-    double in, out;
-} waiting;
-
-static single_hit traverse(const kdtree *tree, const single_ray *r, size_t *tests)
-{
-    waiting stack[KDTREE_MAX_DEPTH + 1], now = {tree->nodes, 0.0, HUGE_VAL};
-    size_t used = 0;
-    single_hit h = {HUGE_VAL, SINGLE_NO_HIT};
-    double slack = 0.0;
-    for (int a = 0; a < 3; a++)
-        slack = fmax(slack, 1e-9 * (fabs((double)tree->min[a]) + fabs((double)tree->max[a]) + fabs(r->o[a])));
-    for (;;) {
-        while (!kdtree_is_leaf(now.node)) {
-            uint32_t axis = now.node->link & KDTREE_KIND;
-            const kdtree_node *below = kdtree_children(tree, now.node);
-            bool down = r->d[axis] < 0.0;
-            double widen = slack / fabs(r->d[axis]), at = ((double)now.node->split - r->o[axis]) / r->d[axis];
-            const kdtree_node *near = below + (down ? 1 : 0), *far = below + (down ? 0 : 1);
-            if (now.out < at - widen)
-                now.node = near;
-            else if (now.in > at + widen)
-                now.node = far;
-            else {
-                assert_true(used <= KDTREE_MAX_DEPTH);
-                stack[used++] = (waiting){far, fmax(now.in, at - widen), now.out};
-                now = (waiting){near, now.in, fmin(now.out, at + widen)};
-            }
-        }
-        for (size_t i = 0; i < kdtree_leaf_count(now.node); i++, ++*tests)
-            single_ray_record(r, &tree->records[kdtree_leaf_list(tree, now.node)[i] / sizeof(bvh_triangle)], &h);
-        do {
-            if (used == 0)
-                return h;
-            now = stack[--used];
-        } while (now.in > h.t * (1 + 1e-9));
-    }
-}
 
 /* Shoot rays across a scene; at least one in `one_in` must hit something. The scene is freed. */
 static void compare_hits(scene s, double centre, double reach, size_t one_in)
@@ -81,15 +37,15 @@ static void compare_hits(scene s, double centre, double reach, size_t one_in)
     }
     assert_true(hits * one_in >= RAYS);
     for (int v = 0; v < 5; v++) {
-        size_t tests = 0;
+        kd_ray_counts n = {0};
         kdtree *tree = NULL;
         assert_int_equal(kdtree_build(&s, &variants[v], &tree, NULL), BASE_OK);
         for (int i = 0; i < RAYS; i++) {
-            single_hit found = traverse(tree, &rays[i], &tests);
+            single_hit found = kd_ray_closest(tree, &rays[i], &n);
             assert_int_equal(found.id, expected[i].id);
             assert_true(found.t == expected[i].t);
         }
-        assert_true(tests < (size_t)RAYS * s.triangle_count / 4);
+        assert_true(n.tests < (size_t)RAYS * s.triangle_count / 4);
         kdtree_destroy(&tree);
     }
     soup_free(&s);

@@ -1,7 +1,7 @@
 /* Vectors of big integers. A float is an integer times a power of two, so floats that are brought to one common
    power of two are integers, and sums and products of them are exact. */
-#ifndef TESTS_ORACLES_EXACT_VECTOR_H
-#define TESTS_ORACLES_EXACT_VECTOR_H
+#ifndef EXACT_VECTOR_H
+#define EXACT_VECTOR_H
 
 #include <gmp.h>
 #include <limits.h>

@@ -1,8 +1,8 @@
 #include <assert.h>
 #include <string.h>
 
-#include "tests/oracles/exact.h"
-#include "tests/oracles/exact_vector.h"
+#include "exact/predicates.h"
+#include "exact/vector.h"
 
 /* A face of a box has 4 vertices and each of at most 7 half-spaces adds one at most. */
 enum { CORNERS = 4, MAX_VERTICES = 12, MAX_PLANES = 7 };

@@ -5,8 +5,8 @@
  * finite (asserted) unless a function says otherwise; vertices may coincide and directions may be zero. Nothing here
  * shares code with the kernels. Memory is GMP's: when it runs out, the process aborts.
  */
-#ifndef TESTS_ORACLES_EXACT_H
-#define TESTS_ORACLES_EXACT_H
+#ifndef EXACT_PREDICATES_H
+#define EXACT_PREDICATES_H
 
 #include <gmp.h>
 
@@ -34,6 +34,9 @@ void exact_hit_clear(exact_hit *hit);
 int exact_ray_triangle(const float org[3], const float dir[3], const float v0[3], const float v1[3],
                        const float v2[3], exact_hit *out);
 
+/** Whether a triangle's normal, (v1-v0) x (v2-v0), is not 0. */
+int exact_triangle_has_area(const float v0[3], const float v1[3], const float v2[3]);
+
 /** Sign of a's t minus b's t: -1, 0 or 1. Both must have facing != 0 (asserted). */
 int exact_hit_compare_t(const exact_hit *a, const exact_hit *b);
 
@@ -60,6 +63,14 @@ void exact_edge_margins_ulp(const float org[3], const float dir[3], const float 
 /** The smallest magnitude of the three margins: how close the ray comes to the line of an edge. At least 0. */
 double exact_edge_distance_ulp(const float org[3], const float dir[3], const float v0[3], const float v1[3],
                                const float v2[3]);
+
+/**
+ * How far the ray passes from the triangle's border, inside or outside: the sine of the angle, seen from the ray's origin, to
+ * the nearest point of the three edges, in units of float rounding, 2^-23. Unlike the margins above it knows that edges
+ * end. At most 2^23, which also stands for angles beyond 90 degrees and for a zero direction. Exact but for the last
+ * division and square roots (1e-15).
+ */
+double exact_border_ulp(const float org[3], const float dir[3], const float v0[3], const float v1[3], const float v2[3]);
 
 /* The stretch of a ray inside a box. Set up with exact_interval_init. */
 typedef struct exact_interval {

@@ -1,4 +1,4 @@
-#include "tests/oracles/exact_vector.h"
+#include "exact/vector.h"
 
 #include <assert.h>
 #include <math.h>

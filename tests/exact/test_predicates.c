@@ -8,7 +8,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 #include "tests/oracles/soup.h"
 
 /* The unit triangle in the plane z = 0, front towards +z, and a ray straight down at (x, y). */

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 #include "tests/oracles/soup.h"
 
 /* Small integers: every cross product and test below fits 64 bits, and every sampled direction is exact in float. */

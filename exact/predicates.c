@@ -1,10 +1,10 @@
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 
 #include <assert.h>
 #include <float.h>
 #include <math.h>
 
-#include "tests/oracles/exact_vector.h"
+#include "exact/vector.h"
 
 /* A triangle as seen from a ray's origin: integers in units of 2^position_exponent and 2^dir_exponent. */
 typedef struct view {
@@ -153,6 +153,21 @@ int exact_ray_triangle(const float org[3], const float dir[3], const float v0[3]
     mpz_clears(det, t, u, v, rest, NULL);
     view_clear(&w);
     return out->hit;
+}
+
+int exact_triangle_has_area(const float v0[3], const float v1[3], const float v2[3])
+{
+    view w;
+    exact_vector work[3];
+    view_init(&w, v0, v0, (const float *const[3]){v0, v1, v2});
+    exact_vector_init(work, 3);
+    exact_vector_subtract(&work[0], &w.vertex[1], &w.vertex[0]);
+    exact_vector_subtract(&work[1], &w.vertex[2], &w.vertex[0]);
+    exact_vector_cross(&work[2], &work[0], &work[1]);
+    int area = !exact_vector_is_zero(&work[2]);
+    exact_vector_clear(work, 3);
+    view_clear(&w);
+    return area;
 }
 
 int exact_hit_compare_t(const exact_hit *a, const exact_hit *b)

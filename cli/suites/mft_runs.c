@@ -1,0 +1,29 @@
+#include "cli/suites/mft_runs.h"
+
+const char *const mft_suite_scenes[] = {"builtin:hall-60k", NULL};
+
+const char *mft_kernel(mft_algorithm algorithm)
+{
+    static const char *const kernels[MFT_ALGORITHMS] = {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft"};
+    return kernels[algorithm];
+}
+
+base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err)
+{
+    run_options options = suite_run_options(s, kernel_find(mft_kernel(algorithm)), RUN_CORE);
+    options.params.cull_backface = 1;
+    return run_kernel(input, machine, &options, result, err);
+}
+
+mft_row mft_row_of(const run_result *result, const char *scene_name, mft_algorithm algorithm)
+{
+    const uint64_t *n = result->counts.n;
+    return (mft_row){
+        .scene = scene_name,
+        .algorithm = algorithm,
+        .pixels = (double)result->options.width * result->options.height,
+        .value = {[MFT_TRIS] = (double)n[KERNEL_tri_accesses], [MFT_CULLED] = (double)n[KERNEL_tri_after_culling],
+                  [MFT_AABB] = (double)n[KERNEL_aabb_tests], [MFT_ISECT] = (double)n[KERNEL_isect_tests], [MFT_CYCLES] = (double)result->cycles},
+        .half_width = result->estimate.half_width_95,
+    };
+}

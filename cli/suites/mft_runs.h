@@ -1,0 +1,27 @@
+/* What the suites of the MFT paper share: its algorithms as kernels, run as the paper ran them. */
+#ifndef CLI_SUITES_MFT_RUNS_H
+#define CLI_SUITES_MFT_RUNS_H
+
+#include "cli/suite.h"
+#include "reports/views/mft_table1.h"
+
+/** Algorithms that have a kernel: the first so many of mft_algorithm. */
+enum { MFT_MEASURED = MFT_P_FRUSTA + 1 };
+
+/** Name of an algorithm's kernel. */
+const char *mft_kernel(mft_algorithm algorithm);
+
+/** The built-in scenes that stand in for the paper's, for suite_info.scenes. */
+extern const char *const mft_suite_scenes[];
+
+/**
+ * Run an algorithm in the core model with back faces culled, as the paper did (MFT 5).
+ *
+ * @param result  destroy with run_result_destroy, also after a failure
+ */
+base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err);
+
+/** What a run has found, as a row of the table; `scene_name` must live as long as the row. */
+mft_row mft_row_of(const run_result *result, const char *scene_name, mft_algorithm algorithm);
+
+#endif

@@ -1,0 +1,58 @@
+#include "reports/views/mft_paper.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "reports/paper.h"
+
+static const char table[] = "mft_table1";
+
+const char *const mft_metric_names[MFT_METRICS] = {"triangle accesses", "after culling", "AABB tests", "intersection tests", "cycles"};
+const char *const mft_algorithm_names[MFT_ALGORITHMS] = {"P-Packet", "P-Frusta", "S-Packet", "S-Frusta"};
+const mft_scene mft_scenes[MFT_SCENES] = {
+    {"T-Rex (69K tri)", "creature-69k"},
+    {"Fern (212K tri)", "fern-212k"},
+    {"Call of Juarez Saloon (60K tri)", "hall-60k"},
+    {"Fairy Forest (174K tri)", "forest-174k"},
+};
+const double mft_paper_pixels = 1024.0 * 1024.0;
+
+/* The metrics' names in the file. */
+static const char *const keys[MFT_METRICS] = {"tris_accessed", "tris_after_culling", "aabb_tests", "isec_tests_16wide", "cycles"};
+
+size_t mft_scene_of(const char *builtin)
+{
+    size_t i = 0;
+    while (i < MFT_SCENES && strcmp(mft_scenes[i].builtin, builtin) != 0)
+        i++;
+    return i;
+}
+
+static void add_doubt(mft_paper_row *row, const char *status, mft_metric metric, const char **last)
+{
+    const size_t length = strlen(row->doubt);
+    const char *joint = !length ? "" : strcmp(*last, status) == 0 ? ", " : "; ";
+    if (*last && strcmp(*last, status) == 0)
+        snprintf(row->doubt + length, sizeof row->doubt - length, "%s%s", joint, mft_metric_names[metric]);
+    else
+        snprintf(row->doubt + length, sizeof row->doubt - length, "%s%s: %s", joint, status, mft_metric_names[metric]);
+    *last = status;
+}
+
+mft_paper_row mft_paper_row_of(size_t scene, mft_algorithm algorithm)
+{
+    mft_paper_row row = {0};
+    const char *last = NULL;
+    for (int m = 0; m < MFT_METRICS; m++) {
+        const report_paper_value *v = report_paper_entry(table, mft_scenes[scene].name, mft_algorithm_names[algorithm], keys[m]);
+        row.value[m] = mft_paper_value(scene, algorithm, keys[m]);
+        if (v && (strcmp(v->status, "inferred") == 0 || strcmp(v->status, "uncertain") == 0))
+            add_doubt(&row, v->status, (mft_metric)m, &last);
+    }
+    return row;
+}
+
+double mft_paper_value(size_t scene, mft_algorithm algorithm, const char *metric)
+{
+    return report_paper_find(table, mft_scenes[scene].name, mft_algorithm_names[algorithm], metric);
+}

@@ -1,0 +1,154 @@
+#include "scene/builtin/skin_field.h"
+
+#include <stdlib.h>
+
+enum { PIECES = 6 }; /* straight pieces of the centre line between two joints */
+
+#define FAR 1e9
+
+/* Catmull and Rom's curve through b and c, t from 0 to 1. */
+static double curve(double a, double b, double c, double d, double t)
+{
+    return 0.5 * (2 * b + t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a))));
+}
+
+/* The curve through a limb's joints, between joint `i` and the next, in the limb's own space. */
+static scene_joint centre_line(const scene_limb *limb, size_t i, double t)
+{
+    const scene_joint *b = &limb->joints[i], *c = b + 1;
+    const scene_joint *a = i > 0 ? b - 1 : b, *d = i + 2 < limb->count ? c + 1 : c;
+    scene_joint p = {{curve(a->at.x, b->at.x, c->at.x, d->at.x, t), curve(a->at.y, b->at.y, c->at.y, d->at.y, t),
+        curve(a->at.z, b->at.z, c->at.z, d->at.z, t) / limb->width}, curve(a->radius, b->radius, c->radius, d->radius, t)};
+    return p;
+}
+
+static void extend(double *low, double *high, double at, double by)
+{
+    *low = fmin(*low, at - by);
+    *high = fmax(*high, at + by);
+}
+
+static void add_bone(skin_field *f, const scene_limb *limb, scene_joint p, scene_joint q, double along)
+{
+    skin_bone *bone = &f->bones[f->count++];
+    scene_point step = scene_point_sub(q.at, p.at);
+    double length2 = scene_point_dot(step, step), growth = q.radius - p.radius;
+    *bone = (skin_bone){limb, p.at, step, 1.0 / length2, p.radius, growth, along, sqrt(length2), 0};
+    f->slope = fmax(f->slope, sqrt(1.0 + growth * growth / length2));
+    if (limb->carved)
+        return;
+    double by = (fmax(p.radius, q.radius) + limb->relief_most) * fmax(1.0, limb->width) + limb->blend;
+    for (int end = 0; end < 2; end++) {
+        scene_point at = end ? q.at : p.at;
+        extend(&f->low.x, &f->high.x, at.x, by);
+        extend(&f->low.y, &f->high.y, at.y, by);
+        extend(&f->low.z, &f->high.z, at.z * limb->width, by);
+    }
+}
+
+int skin_field_begin(skin_field *f, const scene_limb *limbs, size_t count)
+{
+    size_t bones = 0;
+    for (size_t i = 0; i < count; i++)
+        bones += (limbs[i].count - 1) * PIECES;
+    *f = (skin_field){.slope = 1.0, .low = {FAR, FAR, FAR}, .high = {-FAR, -FAR, -FAR}};
+    f->bones = malloc(bones * sizeof *f->bones);
+    if (!f->bones)
+        return 0;
+    for (size_t i = 0; i < count; i++) {
+        double along = 0;
+        size_t first = f->count;
+        f->blend = fmax(f->blend, limbs[i].blend);
+        f->relief = fmax(f->relief, limbs[i].relief_most);
+        for (size_t k = 0; k < (limbs[i].count - 1) * PIECES; k++) {
+            double t0 = (double)(k % PIECES) / PIECES, t1 = (double)(k % PIECES + 1) / PIECES;
+            add_bone(f, &limbs[i], centre_line(&limbs[i], k / PIECES, t0), centre_line(&limbs[i], k / PIECES, t1), along);
+            along += f->bones[f->count - 1].length;
+        }
+        for (size_t k = first; k < f->count; k++)
+            f->bones[k].limb_length = along;
+    }
+    return 1;
+}
+
+void skin_field_end(skin_field *f)
+{
+    free(f->bones);
+    f->bones = NULL;
+}
+
+/* Distance from the skin about one bone, in the limb's own space; *t says where along the bone. */
+static double bone_distance(const skin_bone *bone, scene_point p, double *t)
+{
+    scene_point to = scene_point_sub(p, bone->from);
+    double at = scene_point_dot(to, bone->step) * bone->per_length2;
+    at = at < 0.0 ? 0.0 : at > 1.0 ? 1.0 : at;
+    *t = at;
+    return scene_point_length(scene_point_sub(to, scene_point_scale(bone->step, at))) - (bone->radius + at * bone->growth);
+}
+
+static scene_point limb_space(const scene_limb *limb, scene_point p)
+{
+    return scene_at(p.x, p.y, p.z / limb->width);
+}
+
+/* From a distance in the limb's space to one that no point in space falls short of. */
+static double limb_scale(const scene_limb *limb)
+{
+    return limb->width < 1.0 ? limb->width : 1.0;
+}
+
+static double relief_at(const skin_bone *bone, double t, scene_point at, scene_point p)
+{
+    scene_point out = scene_point_sub(p, scene_point_mix(bone->from, 1.0, bone->step, t));
+    double length = scene_point_length(out), along = bone->along + t * bone->length;
+    scene_skin_place place = {at, along, along / bone->limb_length, bone->radius + t * bone->growth,
+        length > 0.0 ? scene_point_scale(out, 1.0 / length) : scene_at(0, 1, 0)};
+    return bone->limb->relief(&place);
+}
+
+/* The smaller of two, rounded off where they differ by less than `blend`. */
+static double smooth_min(double a, double b, double blend)
+{
+    double h = blend - fabs(a - b);
+    return fmin(a, b) - (h > 0.0 ? h * h / (4.0 * blend) : 0.0);
+}
+
+double skin_field_at(const skin_bone *const *list, size_t count, scene_point p, int with_relief)
+{
+    double field = FAR;
+    for (size_t i = 0; i < count;) {
+        const scene_limb *limb = list[i]->limb;
+        scene_point q = limb_space(limb, p);
+        const skin_bone *nearest = list[i];
+        double best = FAR, where = 0;
+        for (; i < count && list[i]->limb == limb; i++) {
+            double t, d = bone_distance(list[i], q, &t);
+            if (d < best) {
+                best = d;
+                nearest = list[i];
+                where = t;
+            }
+        }
+        best *= limb_scale(limb);
+        if (with_relief && limb->relief)
+            best -= relief_at(nearest, where, p, q);
+        field = limb->carved ? -smooth_min(-field, best, limb->blend) : smooth_min(field, best, limb->blend);
+    }
+    return field;
+}
+
+size_t skin_field_near(const skin_field *f, const skin_bone *const *from, size_t count, scene_point p, double reach,
+    const skin_bone **list)
+{
+    /* Within reach the field and a limb's distance each change by reach * slope + relief. Far limbs melt to at most one blend
+     * below the nearest of them, and stop mattering one blend above a near one, itself at most one above the field. */
+    double margin = fabs(skin_field_at(from, count, p, 0)) + 2.0 * (reach * f->slope + f->relief) + 4.0 * f->blend;
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        double t, d = bone_distance(from[i], limb_space(from[i]->limb, p), &t) * limb_scale(from[i]->limb);
+        if (d <= margin)
+            list[kept++] = from[i];
+    }
+    return kept;
+}
