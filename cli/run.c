@@ -324,7 +324,7 @@ static base_status build_kdtree(run_result *r, base_error *err)
     options.jobs = r->options.jobs;
     base_status status = kdtree_build(r->scene, &options, &r->kdtree, err);
     if (status == BASE_OK && params->empty_occluders)
-        kdtree_mark_occluders(r->kdtree, &rays.origin, 1);
+        status = kdtree_mark_occluders(r->kdtree, &rays.origin, 1, err);
     return status;
 }
 
