@@ -310,11 +310,12 @@ static base_status build_bvh(run_result *r, base_error *err)
     return bvh_build(r->scene, &options, &r->tree, err);
 }
 
-/* The tree, its occluders marked for rays from the camera. */
+/* The tree, its occluders marked for rays from the camera and, of hard shadows, from the light. */
 static base_status build_kdtree(run_result *r, base_error *err)
 {
     const kernel_params *params = &r->options.params;
     const scene_primary_rays rays = scene_camera_rays(r->camera, r->options.width, r->options.height);
+    float origins[2][3];
     kdtree_options options = kdtree_options_default();
     options.empty_percent = params->empty_percent;
     options.covered_planes = params->covered_planes;
@@ -322,9 +323,13 @@ static base_status build_kdtree(run_result *r, base_error *err)
     options.perfect_splits = params->perfect_splits;
     options.empty_occluders = params->empty_occluders;
     options.jobs = r->options.jobs;
+    for (int axis = 0; axis < 3; axis++) {
+        origins[0][axis] = rays.origin[axis];
+        origins[1][axis] = (float)r->scene->light.point[axis];
+    }
     base_status status = kdtree_build(r->scene, &options, &r->kdtree, err);
     if (status == BASE_OK && params->empty_occluders)
-        status = kdtree_mark_occluders(r->kdtree, &rays.origin, 1, err);
+        status = kdtree_mark_occluders(r->kdtree, origins, params->hard_shadows ? 2 : 1, err);
     return status;
 }
 

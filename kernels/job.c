@@ -12,9 +12,8 @@ static const float slack_relative = 0x1p-16f;
 static const float guard_relative = 0x1p-20f;
 
 /* The root cell less the origin, in the float operation that kernels use for planes. */
-static void fill_cells(const kernel_job *job, const scene_primary_rays *rays)
+static void fill_cells(const kernel_job *job, job_cells *k, const scene_primary_rays *rays)
 {
-    job_cells *k = job->cells_host;
     memset(k, 0, sizeof *k);
     for (int axis = 0; axis < 3; axis++) {
         k->box[axis] = k->cell[axis] = job->kdtree->min[axis] - rays->origin[axis];
@@ -30,8 +29,36 @@ static void fill_cells(const kernel_job *job, const scene_primary_rays *rays)
     for (int i = 0; i < 16; i++)
         k->signs[i] = i / 4 == 1 ? -1.0f : 1.0f;
     k->eighth = 0.125f;
+    k->alike = 0.9f;
+    k->untraced = 0xffff;
+    k->unblocked = 0xfffe;
     k->plane_error = 2.0f * job->constants_host->guard * (job->constants_host->guard / guard_relative);
     k->margin = 0x1p-14f;
+}
+
+/* Rays from the light's point to hit points: constants and cells of their own. No direction is longer than the way to the farthest
+   corner of the scene, but for the lift of its end. */
+static void fill_light_cells(const kernel_job *job)
+{
+    job_constants *k = job->light_constants_host;
+    scene_primary_rays rays = {.d00 = {0}};
+    double square = 0;
+    *k = *job->constants_host;
+    memcpy(rays.origin, k->light.point, sizeof rays.origin);
+    for (int axis = 0; axis < 3 && job->record_count; axis++) {
+        double low = (double)rays.origin[axis] - (double)job->kdtree->min[axis], high = (double)job->kdtree->max[axis] - (double)rays.origin[axis];
+        double farthest = fmax(fabs(low), fabs(high)) + (double)k->light.lift;
+        square += farthest * farthest;
+    }
+    for (int i = 0; i < 12; i++)
+        k->origin_box[i] = k->origin_triangle[i] = i % 4 < 3 ? rays.origin[i % 4] : 0.0f;
+    for (int i = 12; i < 15; i++)
+        k->origin_box[i] = rays.origin[i % 4];
+    k->slack = slack_relative * (float)sqrt(square);
+    k->reach = 0.5f * k->slack;
+    k->guard = guard_relative * (float)sqrt(square);
+    fill_cells(job, &job->cells_host[1], &rays);
+    job->cells_host[1].cell[7] = -1.0f;
 }
 
 /* The order of operations that the kernels use for delta; monotone in the pixel, so extremes lie at the corners. */
@@ -119,7 +146,10 @@ static base_status map_tree(kernel_job *job, lrb_memory *memory, base_error *err
         if (status == BASE_OK)
             status = lrb_memory_map(memory, "kd-tree lists", k->lists, k->list_count * sizeof *k->lists, &job->lists, err);
         if (status == BASE_OK)
-            status = lrb_memory_map(memory, "kd-tree cells", job->cells_host, sizeof *job->cells_host, &job->cells, err);
+            status = lrb_memory_map(memory, "kd-tree cells", job->cells_host, 2 * sizeof *job->cells_host, &job->cells, err);
+        if (status == BASE_OK && job->light_constants_host)
+            status = lrb_memory_map(memory, "light constants", job->light_constants_host, sizeof *job->light_constants_host,
+                                    &job->light_constants, err);
     }
     if (status == BASE_OK)
         status = lrb_memory_map(memory, "triangle records", job->records_host, job->record_count * sizeof *job->records_host,
@@ -137,9 +167,10 @@ static base_status map_segments(kernel_job *job, base_error *err)
         status = lrb_memory_map(&memory, "frame", job->frame_host, frame_tiles(job) * sizeof *job->frame_host, &job->frame, err);
     if (status == BASE_OK)
         status = map_tree(job, &memory, err);
-    if (status != BASE_OK || job->sample_passes == 0)
+    if (status != BASE_OK || !job->shadows_host)
         return status;
-    status = lrb_memory_map(&memory, "light samples", job->samples_host, job->samples.size, &job->samples, err);
+    if (job->samples_host)
+        status = lrb_memory_map(&memory, "light samples", job->samples_host, job->samples.size, &job->samples, err);
     if (status == BASE_OK)
         status = lrb_memory_map(&memory, "normals", job->normals_host, job->normals.size, &job->normals, err);
     if (status == BASE_OK)
@@ -177,9 +208,11 @@ static base_status create(const bvh *tree, const kdtree *kd, unsigned unit_log2,
         job->constants_host = aligned_alloc(64, (sizeof *job->constants_host + 63) / 64 * 64);
         job->tiles_host = aligned_alloc(64, frame_tiles(job) * sizeof *job->tiles_host);
         job->frame_host = aligned_alloc(64, frame_tiles(job) * sizeof *job->frame_host);
-        job->cells_host = kd ? aligned_alloc(64, sizeof *job->cells_host) : NULL;
+        job->cells_host = kd ? aligned_alloc(64, 2 * sizeof *job->cells_host) : NULL;
+        job->light_constants_host = kd && params->hard_shadows ? aligned_alloc(64, (sizeof *job->constants_host + 63) / 64 * 64) : NULL;
     }
-    if (!job || !job->constants_host || !job->tiles_host || !job->frame_host || (kd && !job->cells_host)) {
+    if (!job || !job->constants_host || !job->tiles_host || !job->frame_host || (kd && !job->cells_host) ||
+        (kd && params->hard_shadows && !job->light_constants_host)) {
         kernel_job_destroy(&job);
         return base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for %ux%u pixels", width, height);
     }
@@ -187,8 +220,10 @@ static base_status create(const bvh *tree, const kdtree *kd, unsigned unit_log2,
     fill_constants(job, &rays);
     fill_tiles(job);
     if (kd)
-        fill_cells(job, &rays);
+        fill_cells(job, job->cells_host, &rays);
     base_status status = job_shadow_create(job, light, err);
+    if (status == BASE_OK && job->light_constants_host)
+        fill_light_cells(job);
     if (status == BASE_OK)
         status = map_segments(job, err);
     if (status != BASE_OK)
@@ -216,6 +251,7 @@ void kernel_job_destroy(kernel_job **job)
         free((*job)->tiles_host);
         free((*job)->frame_host);
         free((*job)->cells_host);
+        free((*job)->light_constants_host);
         job_shadow_destroy(*job);
         free(*job);
     }

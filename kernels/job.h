@@ -73,7 +73,9 @@ typedef struct job_cells {
     float signs[16]; /* 1, but -1 in words 4 to 7 */
     float eighth, margin; /* what tells a distance from its rounding, and as a share of it keeps a hit inside a cell (kernels/mlrta/entry_end.h) */
     float plane_error;   /* of the normals of planes through two corner rays, at most */
-    float pad[13];
+    float alike;         /* cosine of the angle between surfaces that face alike, at least */
+    uint32_t untraced, unblocked; /* occlusion bits of a pixel with no shadow ray, or with one that reaches the light */
+    float pad[10];
 } job_cells;
 
 /* One tile, 64 bytes. */
@@ -100,7 +102,8 @@ typedef struct kernel_job {
     uint32_t record_count;          /* 0: nothing to hit */
     unsigned unit_log2;             /* a unit of work is a square of 2^unit_log2 tiles an edge */
     lrb_segment nodes, records, constants, tiles, frame;
-    lrb_segment lists, cells;       /* of a kd-tree */
+    lrb_segment lists, cells;       /* of a kd-tree; of cells the second are those of rays from the light */
+    lrb_segment light_constants;    /* constants of rays from the light */
     unsigned sample_passes;         /* sets of samples that a pixel uses one after another; 0: no shadow rays */
     uint32_t sample_mask;           /* samples of a set that are taken */
     lrb_segment samples, normals, shadows; /* these and their host memory: only if there are shadow rays */
@@ -110,7 +113,8 @@ typedef struct kernel_job {
     job_sample_set *samples_host;
     float (*normals_host)[4]; /* unit normals by triangle id, the fourth float 0 */
     job_shadow_tile *shadows_host;
-    job_cells *cells_host;
+    job_cells *cells_host; /* two */
+    job_constants *light_constants_host; /* NULL: there are no hard shadows */
     bvh_triangle *records_host; /* of the tree */
     const bvh *tree;            /* one of the two; not owned: must outlive the job */
     const kdtree *kdtree;

@@ -100,32 +100,47 @@ static size_t id_limit(const kernel_job *job)
     return limit;
 }
 
+/* Normals and shadows: what hard shadows need as well. */
+static bool create_frame(kernel_job *job)
+{
+    const size_t normals = id_limit(job), bytes = (normals * sizeof *job->normals_host + 63) / 64 * 64;
+    job->normals.size = bytes;
+    job->shadows.size = (size_t)job->tiles_x * job->tiles_y * sizeof *job->shadows_host;
+    job->normals_host = aligned_alloc(64, job->normals.size);
+    job->shadows_host = aligned_alloc(64, job->shadows.size);
+    if (!job->normals_host || !job->shadows_host)
+        return false;
+    memset(job->normals_host, 0, bytes);
+    fill_normals(job);
+    return true;
+}
+
+static base_status create_hard(kernel_job *job, base_error *err)
+{
+    if (create_frame(job))
+        return BASE_OK;
+    return base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for the shadows of %ux%u pixels", job->width, job->height);
+}
+
 base_status job_shadow_create(kernel_job *job, const scene_light *light, base_error *err)
 {
     const unsigned samples = job->params.samples;
     if (light)
         fill_light(job, light);
     if (samples == 0)
-        return BASE_OK;
+        return job->params.hard_shadows ? create_hard(job, err) : BASE_OK;
     base_status status = kernel_params_check_samples(samples, err);
     if (status != BASE_OK)
         return status;
     const unsigned sets = samples > 256 ? samples / 16 : 16;
-    const size_t normals = id_limit(job), normal_bytes = (normals * sizeof *job->normals_host + 63) / 64 * 64;
     light_samples *points = calloc(sets, sizeof *points);
     job->sample_passes = samples > 16 ? samples / 16 : 1;
     job->sample_mask = samples < 16 ? four_samples : 0xffffu;
     job->samples.size = sets * sizeof *job->samples_host;
-    job->normals.size = normal_bytes;
-    job->shadows.size = (size_t)job->tiles_x * job->tiles_y * sizeof *job->shadows_host;
     job->samples_host = aligned_alloc(64, job->samples.size);
-    job->normals_host = aligned_alloc(64, job->normals.size);
-    job->shadows_host = aligned_alloc(64, job->shadows.size);
-    if (points && job->samples_host && job->normals_host && job->shadows_host) {
+    if (create_frame(job) && points && job->samples_host) {
         light_samples_fill(job->params.net, job->params.assignment, sets, points);
         fill_samples(job, points, sets);
-        memset(job->normals_host, 0, normal_bytes);
-        fill_normals(job);
     } else {
         status = base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for the shadows of %ux%u pixels", job->width, job->height);
     }

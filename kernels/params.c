@@ -14,6 +14,7 @@ static const char *const mts_names[] = {"4", "8", "16", "32", "64", "128", "256"
 static const char *const culling_names[] = {"inverse", "direct", "corner-rays"};
 static const char *const divergent_names[] = {"split", "xp"};
 static const char *const packets_names[] = {"octants", "rays"};
+static const char *const shadow_packets_names[] = {"whole", "normal", "triangle"};
 
 static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
     [KERNEL_PARAM_CULL_BACKFACE] = {"cull_backface", 0, 1, "1: triangles are hit from their front side only", offsetof(kernel_params, cull_backface), NULL},
@@ -36,6 +37,7 @@ static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
     [KERNEL_PARAM_DIVERGENT] = {"divergent", 0, 1, "tiles whose rays differ in sign are split on, or traced at once", offsetof(kernel_params, divergent), divergent_names},
     [KERNEL_PARAM_DIVERGENT_PACKETS] = {"divergent_packets", 0, 1, "packets whose rays differ in sign are traced by octants, or ray by ray", offsetof(kernel_params, divergent_packets), packets_names},
     [KERNEL_PARAM_ENDS] = {"ends", 0, 1, "1: a triangle that all rays of a tile hit ends its search", offsetof(kernel_params, ends), NULL},
+    [KERNEL_PARAM_SHADOW_PACKETS] = {"shadow_packets", 0, 2, "shadow rays of a block that go together: all, of surfaces that face alike, of one triangle", offsetof(kernel_params, shadow_packets), shadow_packets_names},
 };
 
 const kernel_param_info *kernel_param_list(size_t *count)

@@ -19,6 +19,8 @@ typedef enum kernel_shrink { KERNEL_SHRINK_NONE, KERNEL_SHRINK_CORNERS, KERNEL_S
 typedef enum kernel_culling { KERNEL_CULL_INVERSE, KERNEL_CULL_DIRECT, KERNEL_CULL_CORNER_RAYS } kernel_culling;
 typedef enum kernel_divergent { KERNEL_DIVERGENT_SPLIT, KERNEL_DIVERGENT_XP } kernel_divergent;
 typedef enum kernel_packets { KERNEL_PACKETS_OCTANTS, KERNEL_PACKETS_RAYS } kernel_packets;
+/* Which shadow rays of a block are traced together: all, those from surfaces that face alike, or those from one triangle. */
+typedef enum kernel_shadow_packets { KERNEL_SHADOW_WHOLE, KERNEL_SHADOW_NORMAL, KERNEL_SHADOW_TRIANGLE } kernel_shadow_packets;
 
 typedef struct kernel_params {
     unsigned cull_backface; /* 1: triangles are hit from their front only */
@@ -35,6 +37,8 @@ typedef struct kernel_params {
     unsigned culling;       /* kernel_culling */
     unsigned divergent;     /* kernel_divergent */
     unsigned divergent_packets; /* kernel_packets */
+    unsigned shadow_packets; /* kernel_shadow_packets */
+    unsigned hard_shadows;  /* no parameter: 1: the kernel traces a ray to the light's point from each hit */
     unsigned ends;          /* 1: a triangle that all rays of a tile hit ends the search for its entry point */
     unsigned samples;       /* option --samples: shadow rays a pixel; 0: the kernel traces none */
     double light_scale;     /* option --light-scale: of the light's edges, about its centre */
@@ -62,6 +66,7 @@ typedef enum kernel_param {
     KERNEL_PARAM_DIVERGENT,
     KERNEL_PARAM_DIVERGENT_PACKETS,
     KERNEL_PARAM_ENDS,
+    KERNEL_PARAM_SHADOW_PACKETS,
     KERNEL_PARAM_COUNT
 } kernel_param;
 

@@ -9,7 +9,9 @@ const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal"
 KERNEL_TILES(packet16_primary);
 KERNEL_TILES(mft_primary);
 KERNEL_TILES(kd16_primary);
+KERNEL_TILES(kd16_shadow);
 KERNEL_TILES(mlrta_primary);
+KERNEL_TILES(mlrta_shadow);
 #undef KERNEL_TILES
 
 #define BIT(counter) (UINT64_C(1) << KERNEL_##counter)
@@ -77,6 +79,18 @@ const kernel_info *kernel_list(size_t *count)
             .annotated = kd16_primary_annotated,
         },
         {
+            .name = "kd16-shadow",
+            .summary = "the same, then hard shadows in packets from a point light",
+            .paper = "Reshetov, Soupikov and Hurley 2005, 5",
+            .defaults = {KDTREE_DEFAULTS, .shadow_packets = KERNEL_SHADOW_NORMAL, .hard_shadows = 1},
+            .accel = KERNEL_ACCEL_KDTREE,
+            .counters = kdtree_counters | BIT(rays_shadow) | BIT(units_hard_packets),
+            .params = kdtree_params | PARAM(SHADOW_PACKETS),
+            .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_SHADING,
+            .tile = {kd16_shadow_native, kd16_shadow_count, kd16_shadow_record},
+            .annotated = kd16_shadow_annotated,
+        },
+        {
             .name = "mlrta-primary",
             .summary = "primary rays in tiles that search their entry point into the kd-tree, then in 4x4 packets: multi-level ray tracing",
             .paper = "Reshetov, Soupikov and Hurley 2005, 3.3 to 4.3",
@@ -87,6 +101,19 @@ const kernel_info *kernel_list(size_t *count)
             .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_ENTRY,
             .tile = {mlrta_primary_native, mlrta_primary_count, mlrta_primary_record},
             .annotated = mlrta_primary_annotated,
+        },
+        {
+            .name = "mlrta-shadow",
+            .summary = "the same, then hard shadows of a point light from entry points of 16x16 tiles of hits",
+            .paper = "Reshetov, Soupikov and Hurley 2005, 5",
+            .defaults = {KDTREE_DEFAULTS, .empty_occluders = 1, .its = 3, .sf = 1, .mts = 3, .ends = 1,
+                         .shadow_packets = KERNEL_SHADOW_NORMAL, .hard_shadows = 1},
+            .accel = KERNEL_ACCEL_KDTREE,
+            .counters = kdtree_counters | entry_counters | BIT(rays_shadow) | BIT(units_hard_packets),
+            .params = kdtree_params | entry_params | PARAM(SHADOW_PACKETS),
+            .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_ENTRY | UINT64_C(1) << KERNEL_PHASE_SHADING,
+            .tile = {mlrta_shadow_native, mlrta_shadow_count, mlrta_shadow_record},
+            .annotated = mlrta_shadow_annotated,
         },
     };
     *count = sizeof kernels / sizeof *kernels;

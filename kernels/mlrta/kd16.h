@@ -40,6 +40,7 @@ enum { KD16_EVEN = 0x5555, KD16_ODD = 0xaaaa };
 typedef struct kd16 {
     lrb_ptr constants, scratch, cells, nodes, lists, records;
     bool cull, mailbox, single_rays;
+    bool any; /* the rays end at any hit before their limit, which then becomes -inf */
     uint32_t unit_log2, tile_x, tile_y; /* edge of the unit of work, in tiles; the place in it of the tile that is being traced */
     kernel_counts *n;
     lrb_v16f origin;     /* for triangle records */
@@ -63,6 +64,16 @@ LRB_INLINE kd16 kd16_of(lrb_ctx *c, const kernel_job *job, kernel_counts *n)
         .unit_log2 = job->unit_log2,
         .n = n,
     };
+}
+
+/** The same for rays from the point light, which end at what they hit first. */
+LRB_INLINE kd16 kd16_from_light(lrb_ctx *c, const kernel_job *job, kernel_counts *n)
+{
+    kd16 k = kd16_of(c, job, n);
+    k.constants = lrb_segment_at(job->light_constants, 0);
+    k.cells = lrb_segment_at(job->cells, sizeof(job_cells));
+    k.any = true;
+    return k;
 }
 
 /* The largest of a in even lanes, of b in odd lanes. */
@@ -184,6 +195,11 @@ LRB_INLINE lrb_r64 kd16_triangle(lrb_ctx *c, kd16 *k, slab16 *s, lrb_ptr record,
     if (!hits.m.bits) /* the branch is triangle16_intersect's own */
         return nearer;
     k->n->n[KERNEL_isect_hits]++;
+    if (k->any) {
+        lrb_k16 blocked = lrb_mask_cmpnle_ps_s3(c, hits.m, hits.t, lrb_1to16_ps(RAYS16_CONSTANT(k->constants, light.nearest)));
+        s->limit = lrb_mask_mov_ps_s3(c, s->limit, blocked, lrb_full_ps(RAYS16_CONSTANT(k->constants, no_pixel)));
+        return lrb_mov(c, lrb_imm(1));
+    }
     s->limit = lrb_mask_mov_ps(c, s->limit, hits.m, hits.t);
     k->u = lrb_mask_mov_ps(c, k->u, hits.m, hits.u);
     k->v = lrb_mask_mov_ps(c, k->v, hits.m, hits.v);
@@ -263,6 +279,8 @@ LRB_INLINE void kd16_octant(lrb_ctx *c, kd16 *k, slab16 *s, bool zero, lrb_r64 s
 {
     kd16_place at = {.node = start};
     lrb_phase(c, KERNEL_PHASE_SETUP);
+    if (k->any)
+        exit = lrb_min_ps(c, exit, s->limit);
     for (int axis = 0; axis < 3; axis++)
         kd16_row_setup(c, k, s, axis, m);
     if (k->mailbox) {

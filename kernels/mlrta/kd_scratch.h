@@ -21,7 +21,12 @@ enum {
     ENTRY_PLANES = ENTRY_CELL + 64,      /* 6 x 64: planes around its rays, by word of a cell; or reciprocals of its corner rays */
     ENTRY_TILES = ENTRY_PLANES + 6 * 64, /* tiles that are being split, the largest first */
     ENTRY_STACK = ENTRY_TILES + ENTRY_TILE_FRAME * ENTRY_TILE_LEVELS, /* of the search: nodes with two possible children, and their cells */
-    KD_SCRATCH_END = ENTRY_STACK + ENTRY_STACK_ENTRY * (KDTREE_MAX_DEPTH + 1)
+    HARD_RAYS = ENTRY_STACK + ENTRY_STACK_ENTRY * (KDTREE_MAX_DEPTH + 1), /* rays from the light to the hits of a tile: by block, */
+    HARD_BLOCK = 6 * 64, /* 3 x 64: directions, 3 x 64: normals of the surfaces */
+    HARD_ALIVE = HARD_RAYS + 16 * HARD_BLOCK, /* 4 bytes a block: those that are traced ... */
+    HARD_HITS = HARD_ALIVE + 64,              /* ... of the pixels with a hit */
+    HARD_RANGE = HARD_HITS + 64,              /* 64: a vector whose words are wanted one by one */
+    KD_SCRATCH_END = HARD_RANGE + 64
 };
 
 _Static_assert((int)KD_ROWS >= (int)SCRATCH_END, "the kernels on the kd-tree use the triangle test's scratch as well");

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include <dirent.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,7 +54,8 @@ static void stage_destroy(stage *st)
 static trace_picture run(const stage *st, const char *kernel, const scene_camera *camera, unsigned cull, const kernel_params *params)
 {
     trace_request request = {.kernel = kernel, .tree = st->tree, .kdtree = st->kdtree, .camera = camera, .width = picture_size,
-                             .height = picture_size - picture_size / 7, .cull = cull, .params = params, .level = LRB_NATIVE, .jobs = JOBS};
+                             .height = picture_size - picture_size / 7, .cull = cull, .params = params, .light = &st->s->light,
+                             .level = LRB_NATIVE, .jobs = JOBS};
     return trace_run(&request);
 }
 
@@ -212,20 +214,150 @@ static void mlrta__corner_rays_only__hits_are_lost(void **state)
     stage_destroy(&st);
 }
 
+/* What blocks the way from the light to a lifted hit point, in double: 1 for sure, 0 for sure not, -1: too close to call. */
+static int blocked(const scene *s, const double light[3], const double d[3])
+{
+    int answer = 0;
+    for (size_t i = 0; i < s->triangle_count; i++) {
+        double a[3][3], volume[3], sum = 0, n[3], na = 0, least = INFINITY, most = -INFINITY, size = 0;
+        for (int v = 0; v < 3; v++)
+            for (int k = 0; k < 3; k++)
+                a[v][k] = (double)s->triangles[i].v[v][k] - light[k];
+        for (int v = 0; v < 3; v++) {
+            const double *p = a[(v + 1) % 3], *q = a[(v + 2) % 3];
+            volume[v] = 0;
+            for (int k = 0; k < 3; k++) {
+                double cross = p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
+                volume[v] += cross * d[k];
+                size = fmax(size, fabs(cross * d[k]));
+            }
+            sum += volume[v];
+            least = fmin(least, volume[v]);
+            most = fmax(most, volume[v]);
+        }
+        if (least < -1e-6 * size && most > 1e-6 * size)
+            continue; /* outside an edge */
+        for (int k = 0; k < 3; k++) {
+            int u = (k + 1) % 3, v = (k + 2) % 3;
+            n[k] = (a[1][u] - a[0][u]) * (a[2][v] - a[0][v]) - (a[1][v] - a[0][v]) * (a[2][u] - a[0][u]);
+            na += n[k] * a[0][k];
+        }
+        double t = na / (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]);
+        if (fabs(sum) > 1e-5 * size && (t < 0 || t > 1.001))
+            continue;
+        if (fabs(sum) > 1e-5 * size && fmin(fabs(least), fabs(most)) > 1e-6 * size && t > 1e-3 && t < 0.999)
+            return 1;
+        answer = -1;
+    }
+    return answer;
+}
+
+/* The shadows of a picture against double arithmetic; returns how many pixels were decided. */
+static size_t check_shadows(const stage *st, const trace_picture *p, const scene_camera *camera)
+{
+    oracle_ray *rays = calloc(p->pixels, sizeof *rays);
+    size_t decided = 0;
+    assert_non_null(rays);
+    trace_rays(st->tree, camera, p->width, p->height, rays);
+    for (size_t i = 0; i < p->pixels; i++) {
+        double d[3], n[3], height = 0, facing = 0, length = 0, light[3];
+        if (p->id[i] == JOB_NO_HIT) {
+            assert_true(p->visibility[i] == 1.0f);
+            continue;
+        }
+        const scene_triangle *t = &st->s->triangles[p->id[i]];
+        for (int k = 0; k < 3; k++) {
+            int u = (k + 1) % 3, v = (k + 2) % 3;
+            light[k] = (double)(float)st->s->light.point[k];
+            n[k] = ((double)t->v[1][u] - (double)t->v[0][u]) * ((double)t->v[2][v] - (double)t->v[0][v]) -
+                   ((double)t->v[1][v] - (double)t->v[0][v]) * ((double)t->v[2][u] - (double)t->v[0][u]);
+            length += n[k] * n[k];
+            facing += n[k] * (double)rays[i].dir[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            n[k] *= (facing > 0 ? -1 : 1) / sqrt(length);
+            d[k] = (double)rays[i].org[k] + (double)p->t[i] * (double)rays[i].dir[k] + 1e-3 * n[k] - light[k];
+            height += n[k] * d[k];
+        }
+        int dark = height > -1e-3 ? (height > 1e-3 ? 1 : -1) : blocked(st->s, light, d);
+        if (dark < 0)
+            continue;
+        if ((p->visibility[i] == 0.0f) != dark)
+            fail_msg("pixel (%zu,%zu): visibility %g, but %s", i % p->width, i / p->width, (double)p->visibility[i],
+                     dark ? "something is in the way" : "nothing is in the way");
+        decided++;
+    }
+    free(rays);
+    return decided;
+}
+
+/* Hard shadows: what is in the way according to double arithmetic, whatever goes together in a packet and wherever it starts (C14). */
+static void shadows__of_a_room__as_by_brute_force(void **state)
+{
+    stage st = stage_create("builtin:rooms-804");
+    const scene_camera *camera = &st.s->cameras[0];
+    kernel_params p = kernel_find("kd16-shadow")->defaults;
+    trace_picture root = run(&st, "kd16-shadow", camera, 0, &p);
+    (void)state;
+    assert_true(check_shadows(&st, &root, camera) > root.pixels / 2);
+    assert_true(of(&root, KERNEL_rays_shadow) > 0);
+    for (unsigned packets = 0; packets < 3; packets++) {
+        p.shadow_packets = packets;
+        trace_picture other = run(&st, "kd16-shadow", camera, 0, &p);
+        trace_assert_equal(&root, &other, "packets of shadow rays");
+        kernel_params m = kernel_find("mlrta-shadow")->defaults;
+        m.shadow_packets = packets;
+        trace_picture entry = run(&st, "mlrta-shadow", camera, 0, &m);
+        trace_assert_equal(&root, &entry, "entry points of shadow rays");
+        assert_true(of(&entry, KERNEL_isect_tests) <= of(&other, KERNEL_isect_tests));
+        assert_int_equal(of(&entry, KERNEL_rays), of(&root, KERNEL_rays));
+        trace_free(&other);
+        trace_free(&entry);
+    }
+    trace_free(&root);
+    stage_destroy(&st);
+}
+
+/* Over scenes and hard views: entry points change no shadow. */
+static void shadows__usual_scenes_hard_views__same_from_entry_points(void **state)
+{
+    size_t scenes;
+    const char *const *spec = scene_builtin_usual(&scenes);
+    (void)state;
+    for (size_t i = 0; i < scenes; i++) {
+        stage st = stage_create(spec[i]);
+        views v = views_of(st.s, 1);
+        for (size_t k = 0; k < v.count; k += 3) {
+            float origins[2][3];
+            const scene_primary_rays rays = scene_camera_rays(&v.camera[k], 1, 1);
+            for (int axis = 0; axis < 3; axis++) {
+                origins[0][axis] = rays.origin[axis];
+                origins[1][axis] = (float)st.s->light.point[axis];
+            }
+            assert_int_equal(kdtree_mark_occluders(st.kdtree, origins, 2, NULL), BASE_OK);
+            trace_picture root = run(&st, "kd16-shadow", &v.camera[k], 0, NULL), entry = run(&st, "mlrta-shadow", &v.camera[k], 0, NULL);
+            trace_assert_equal(&root, &entry, v.camera[k].name);
+            trace_free(&root);
+            trace_free(&entry);
+        }
+        stage_destroy(&st);
+    }
+}
+
 /* The levels and any number of host threads agree, counts and events too; each unit of work is on its own. */
 static void mlrta__levels_and_threads__same_results(void **state)
 {
-    static const char *names[2] = {"kd16-primary", "mlrta-primary"};
+    static const char *names[4] = {"kd16-primary", "mlrta-primary", "kd16-shadow", "mlrta-shadow"};
     stage st = stage_create("builtin:rooms-804");
     (void)state;
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 4; k++) {
         kernel_params p = kernel_find(names[k])->defaults;
-        p.its = k; /* 32 */
+        p.its = k % 2; /* 32 */
         trace_picture got[4];
         for (int i = 0; i < 4; i++) {
             static const int levels[4] = {LRB_NATIVE, LRB_COUNT, LRB_RECORD, LRB_RECORD};
             trace_request request = {.kernel = names[k], .kdtree = st.kdtree, .camera = &st.s->cameras[0], .width = 75, .height = 70,
-                                     .params = &p, .level = levels[i], .jobs = i == 3 ? 3 : 1};
+                                     .params = &p, .light = &st.s->light, .level = levels[i], .jobs = i == 3 ? 3 : 1};
             got[i] = trace_run(&request);
             trace_assert_equal(&got[0], &got[i], names[k]);
             assert_memory_equal(&got[0].counts, &got[i].counts, sizeof got[0].counts);
@@ -247,6 +379,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(kd16__camera_on_planes__same_hits),
         cmocka_unit_test(mlrta__every_parameter__hits_from_the_root),
         cmocka_unit_test(mlrta__corner_rays_only__hits_are_lost),
+        cmocka_unit_test(shadows__of_a_room__as_by_brute_force),
+        cmocka_unit_test(shadows__usual_scenes_hard_views__same_from_entry_points),
         cmocka_unit_test(mlrta__levels_and_threads__same_results),
     };
     picture_size = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 100;
