@@ -33,10 +33,10 @@ LRB_INLINE bool entry_all_enter(lrb_ctx *c, const kd16 *k, lrb_v16f cell)
     return lrb_jnz(c, lrb_test(c, enter, lrb_imm(1)));
 }
 
-/* Whether all corner rays have a volume of that sign over an edge, by more than rounding. */
+/* Whether all corner rays have a volume of that sign over edge plane `edge` of triangle16_shared, by more than rounding. */
 LRB_INLINE bool entry_all_beside(lrb_ctx *c, const kd16 *k, int edge, bool front, lrb_v16f volume)
 {
-    int group = edge - SCRATCH_EDGES;
+    int group = triangle16_shared.edge[edge] - SCRATCH_EDGES;
     lrb_k16 m;
     if (front)
         m = lrb_cmplt_ps_s3(c, volume, lrb_1to16_ps(lrb_at(k->scratch, SCRATCH_MINUS_GUARD + group)));
@@ -49,15 +49,15 @@ LRB_INLINE bool entry_all_beside(lrb_ctx *c, const kd16 *k, int edge, bool front
 LRB_INLINE bool entry_all_inside(lrb_ctx *c, const kd16 *k, lrb_v16f zero, lrb_v16f edges, const lrb_v16f d[3])
 {
     corner_cull_guard(c, k->constants, k->scratch, zero, edges, false);
-    lrb_v16f volume = triangle16_edge(c, k->scratch, TRIANGLE16_EDGE_A, d);
-    bool front = entry_all_beside(c, k, TRIANGLE16_EDGE_A, true, volume); /* from here on its branch's side */
-    if (!front && (k->cull || !entry_all_beside(c, k, TRIANGLE16_EDGE_A, false, volume)))
+    lrb_v16f volume = triangle16_edge(c, k->scratch, &triangle16_shared, 0, d);
+    bool front = entry_all_beside(c, k, 0, true, volume); /* from here on its branch's side */
+    if (!front && (k->cull || !entry_all_beside(c, k, 0, false, volume)))
         return false;
-    volume = triangle16_edge(c, k->scratch, TRIANGLE16_EDGE_B, d);
-    if (!entry_all_beside(c, k, TRIANGLE16_EDGE_B, front, volume))
+    volume = triangle16_edge(c, k->scratch, &triangle16_shared, 1, d);
+    if (!entry_all_beside(c, k, 1, front, volume))
         return false;
-    volume = triangle16_edge(c, k->scratch, TRIANGLE16_EDGE_C, d);
-    return entry_all_beside(c, k, TRIANGLE16_EDGE_C, front, volume);
+    volume = triangle16_edge(c, k->scratch, &triangle16_shared, 2, d);
+    return entry_all_beside(c, k, 2, front, volume);
 }
 
 /* Lanes in which |sum| is at least an eighth of `magnitude`, the sum of the magnitudes of its terms. */

@@ -128,7 +128,7 @@ LRB_INLINE void hard_shadow_store(lrb_ctx *c, const hard_shadow *h, const kd16 *
 /* Trace rays of a block from the light; returns those that arrive. */
 LRB_INLINE lrb_k16 hard_shadow_trace(lrb_ctx *c, const hard_shadow *h, kd16 *k, lrb_r64 start, lrb_k16 active)
 {
-    slab16 s;
+    slab16 s = {.own_origins = false};
     lrb_v16f lo[3], hi[3];
     lrb_phase(c, KERNEL_PHASE_SETUP);
     for (int axis = 0; axis < 3; axis++) {
@@ -136,7 +136,8 @@ LRB_INLINE lrb_k16 hard_shadow_trace(lrb_ctx *c, const hard_shadow *h, kd16 *k, 
         lo[axis] = hi[axis] = k->d[axis];
     }
     k->n->n[KERNEL_units_hard_packets]++;
-    slab16_setup(c, &s, k->constants, k->scratch, active, lo, hi, k->n);
+    lrb_v16f slack = lrb_load_1to16_ps(c, RAYS16_CONSTANT(k->constants, slack));
+    slab16_setup(c, &s, k->constants, k->scratch, slack, active, lo, hi, k->n);
     lrb_v16f farthest = lrb_load_1to16_ps(c, RAYS16_CONSTANT(k->constants, light.farthest));
     s.limit = lrb_mask_mov_ps(c, lrb_load_ps(c, RAYS16_CONSTANT(k->constants, no_pixel)), active, farthest);
     k->u = lrb_mov_ps(c, s.zero);

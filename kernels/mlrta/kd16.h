@@ -329,11 +329,14 @@ LRB_INLINE void kd16_parts(lrb_ctx *c, kd16 *k, slab16 *s, bool zero, bool commo
 /* Distances at which rays enter and leave the box in scratch; returns the rays of m that meet it. */
 LRB_INLINE lrb_k16 kd16_enter(lrb_ctx *c, const kd16 *k, const slab16 *s, slab16_path path, lrb_k16 m, lrb_v16f *entry, lrb_v16f *exit)
 {
-    *entry = lrb_max_ps(c, s->zero, slab16_entry(c, s, path, k->scratch, 0, 0));
-    *exit = slab16_exit(c, s, path, k->scratch, 0, 0);
-    for (int axis = 1; axis < 3; axis++) {
-        *entry = lrb_max_ps(c, *entry, slab16_entry(c, s, path, k->scratch, axis, 0));
-        *exit = lrb_min_ps(c, *exit, slab16_exit(c, s, path, k->scratch, axis, 0));
+    *entry = s->zero;
+    *exit = s->infinity;
+    for (int axis = 0; axis < 3; axis++) {
+        lrb_s3f planes[2];
+        slab16_planes(c, s, path, k->scratch, axis, 0, planes);
+        *entry = lrb_max_ps(c, *entry, slab16_entry(c, s, path, planes, axis));
+        lrb_v16f axis_exit = slab16_exit(c, s, path, planes, axis);
+        *exit = axis ? lrb_min_ps(c, *exit, axis_exit) : axis_exit;
     }
     return lrb_mask_cmple_ps(c, m, *entry, *exit);
 }

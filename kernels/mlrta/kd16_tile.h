@@ -49,7 +49,8 @@ LRB_INLINE void kd16_packet(lrb_ctx *c, kd16 *k, slab16 *s, lrb_ptr corner, lrb_
         k->d[axis] = lrb_add_ps_s3(c, delta, lrb_1to16_ps(lrb_at(corner, 64 * axis)));
         lo[axis] = hi[axis] = k->d[axis];
     }
-    slab16_setup(c, s, k->constants, k->scratch, active, lo, hi, k->n);
+    lrb_v16f slack = lrb_load_1to16_ps(c, RAYS16_CONSTANT(k->constants, slack));
+    slab16_setup(c, s, k->constants, k->scratch, slack, active, lo, hi, k->n);
     kd16_no_hits(c, k, s, active);
     kd16_trace(c, k, s, start, active);
     lrb_phase(c, KERNEL_PHASE_SETUP);
@@ -74,7 +75,7 @@ LRB_INLINE uint32_t kd16_region(const kd16 *k, uint32_t block)
 LRB_INLINE void kd16_blocks(lrb_ctx *c, kd16 *k, lrb_ptr tile, lrb_ptr frame, lrb_r64 start, bool nothing, lrb_r64 blocks)
 {
     lrb_v16f first_rays[3];
-    slab16 s;
+    slab16 s = {.own_origins = false};
     lrb_phase(c, KERNEL_PHASE_SETUP);
     if (!nothing) {
         rays16_corners(c, k->constants, tile, first_rays);

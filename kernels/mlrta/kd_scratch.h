@@ -10,7 +10,7 @@
 enum { KD_MAILBOX_SLOTS = 64, KD_STACK_ENTRY = 16, ENTRY_STACK_ENTRY = 64, ENTRY_TILE_FRAME = 64, ENTRY_TILE_LEVELS = 8 };
 
 enum {
-    KD_ROWS = 4096, /* 3 x 64: how the packet's rays meet planes, by axis (kernels/mlrta/kd16.h) */
+    KD_ROWS = 8192, /* 3 x 64: how the packet's rays meet planes, by axis (kernels/mlrta/kd16.h) */
     KD_MAILBOX = KD_ROWS + 3 * 64, /* 4 bytes a slot: offset of the record that was tested last of those that share the slot */
     KD_STACK = KD_MAILBOX + 4 * KD_MAILBOX_SLOTS, /* of a packet: farther children and their intervals */
     ENTRY_ROWS = KD_STACK + (KD_STACK_ENTRY * (KDTREE_MAX_DEPTH + 1) + 63) / 64 * 64, /* 3 x 64: how a tile's rays meet planes */

@@ -155,13 +155,13 @@ static void sources__every_number__one_file(void **state)
     size_t count;
     const kernel_source *list = kernel_source_list(&count);
     (void)state;
-    assert_int_equal(count, KERNEL_SOURCE_RAYS);
+    assert_int_equal(count, KERNEL_SOURCE_MFT_SOFT);
     for (size_t i = 0; i < count; i++) {
         assert_ptr_equal(kernel_source_find(list[i].number), &list[i]);
         assert_int_equal(strlen(list[i].text), list[i].size);
     }
     assert_null(kernel_source_find(0));
-    assert_null(kernel_source_find(KERNEL_SOURCE_RAYS + 1));
+    assert_null(kernel_source_find(KERNEL_SOURCE_MFT_SOFT + 1));
 }
 
 int main(void)
