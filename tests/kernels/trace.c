@@ -109,7 +109,7 @@ trace_picture trace_picture_create(unsigned width, unsigned height)
     return p;
 }
 
-static kernel_job *job_create(const trace_request *request)
+kernel_job *trace_job(const trace_request *request)
 {
     const kernel_info *kernel = kernel_find(request->kernel);
     base_error err = {0};
@@ -117,7 +117,11 @@ static kernel_job *job_create(const trace_request *request)
     assert_non_null(kernel);
     kernel_params params = request->params ? *request->params : kernel->defaults;
     params.cull_backface = request->cull;
-    if (kernel_job_create(request->tree, request->camera, request->light, request->width, request->height, &params, &job, &err) != BASE_OK)
+    base_status status =
+        kernel->accel == KERNEL_ACCEL_KDTREE
+            ? kernel_job_create_kdtree(request->kdtree, request->camera, request->light, request->width, request->height, &params, &job, &err)
+            : kernel_job_create(request->tree, request->camera, request->light, request->width, request->height, &params, &job, &err);
+    if (status != BASE_OK)
         fail_msg("%s: %s", err.what, err.why);
     return job;
 }
@@ -125,7 +129,7 @@ static kernel_job *job_create(const trace_request *request)
 trace_picture trace_run(const trace_request *request)
 {
     trace_picture picture = trace_picture_create(request->width, request->height);
-    kernel_job *job = job_create(request);
+    kernel_job *job = trace_job(request);
     trace_run_state r = {.request = request, .job = job, .tile = kernel_find(request->kernel)->tile[request->level]};
     r.workers = calloc(request->jobs, sizeof *r.workers);
     r.tile_hashes = calloc(kernel_job_tiles(job), sizeof *r.tile_hashes);
@@ -168,10 +172,39 @@ bvh *trace_tree(const scene *s, unsigned max_leaf)
     return tree;
 }
 
+kdtree *trace_kdtree(const scene *s, const scene_camera *camera)
+{
+    kdtree_options options = kdtree_options_default();
+    const scene_primary_rays rays = scene_camera_rays(camera, 1, 1);
+    base_error err = {0};
+    kdtree *tree = NULL;
+    options.jobs = 2;
+    if (kdtree_build(s, &options, &tree, &err) != BASE_OK)
+        fail_msg("%s: %s", err.what, err.why);
+    assert_int_equal(kdtree_mark_occluders(tree, &rays.origin, 1, NULL), BASE_OK);
+    return tree;
+}
+
+trace_trees trace_trees_of(const kernel_info *kernel, const scene *s, const scene_camera *camera)
+{
+    trace_trees t = {0};
+    if (kernel->accel == KERNEL_ACCEL_KDTREE)
+        t.kdtree = trace_kdtree(s, camera);
+    else
+        t.tree = trace_tree(s, kernel->defaults.max_leaf);
+    return t;
+}
+
+void trace_trees_destroy(trace_trees *t)
+{
+    bvh_destroy(&t->tree);
+    kdtree_destroy(&t->kdtree);
+}
+
 void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, oracle_ray *rays)
 {
     trace_request request = {.kernel = "packet16-primary", .tree = tree, .camera = camera, .width = width, .height = height};
-    kernel_job *job = job_create(&request);
+    kernel_job *job = trace_job(&request);
     for (unsigned y = 0; y < height; y++)
         for (unsigned x = 0; x < width; x++) {
             oracle_ray *ray = &rays[(size_t)y * width + x];
@@ -185,7 +218,7 @@ void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, uns
 
 void trace_shadow_rays(const trace_request *request, const trace_picture *picture, unsigned pass, oracle_ray *rays, uint32_t *taken)
 {
-    kernel_job *job = job_create(request);
+    kernel_job *job = trace_job(request);
     const job_light *light = &job->constants_host->light;
     memset(rays, 0, 16 * picture->pixels * sizeof *rays);
     for (size_t i = 0; i < picture->pixels; i++) {
