@@ -14,7 +14,8 @@ static const struct argp_option option_table[] = {
     {"scene", KEY_SCENE, "SCENE", 0, "builtin:NAME, or a .glb or .gltf file, instead of the suite's own scenes; repeatable", 1},
     {"size", KEY_SIZE, "WxH", 0, "image size in pixels; default: the suite's own", 1},
     {"kernel", KEY_KERNEL, "KERNEL", 0, "a kernel instead of all, in the suites that compare models; repeatable", 1},
-    {"error", KEY_ERROR, "E", 0, "simulate as few tiles as bound the relative error of the cycles by E (95%), in the suites that take cycles of the core model", 2},
+    {"error", KEY_ERROR, "E", 0, "simulate as few tiles as bound the relative error of the cycles by E (95%), in the suites that "
+                                 "take cycles of the core model", 2},
     {"machine", KEY_MACHINE, "M", 0, "a machine (see lanetrace machines), or a description's path; default larrabee", 2},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a field of the machine; repeatable", 2},
     {"jobs", KEY_JOBS, "N", 0, "host threads; default: the suite's own, mostly all", 2},
@@ -63,8 +64,8 @@ static base_status parse_arguments(int argc, char **argv, arguments *a, base_err
     FILE *out = fmemopen(doc, sizeof doc, "w");
     if (!out)
         return base_fail(err, BASE_ERR_NOMEM, "report", "out of memory");
-    fputs("Measure the suites, or the first one if none is named, and write their tables to DIR as text, CSV, JSON and HTML, with pictures.\v"
-          "Suites:\n", out);
+    fputs("Measure the suites, or the first one if none is named, and write their tables to DIR as text, CSV, JSON and HTML, with "
+          "pictures.\vSuites:\n", out);
     write_list(out);
     fclose(out);
     const struct argp argp = {option_table, parse, "[SUITE...]", doc, NULL, NULL, NULL};

@@ -23,7 +23,8 @@ static mft_events events_of(const run_result *r, size_t machine, mft_algorithm a
         .machine = machine,
         .algorithm = a,
         .scene = scene_name,
-        .cycles = {[MFT_EVENT_SETUP] = (double)(phase[KERNEL_PHASE_SETUP] + phase[KERNEL_PHASE_SHADING]), [MFT_EVENT_AABB] = (double)phase[KERNEL_PHASE_TRAVERSAL],
+        .cycles = {[MFT_EVENT_SETUP] = (double)(phase[KERNEL_PHASE_SETUP] + phase[KERNEL_PHASE_SHADING]),
+                   [MFT_EVENT_AABB] = (double)phase[KERNEL_PHASE_TRAVERSAL],
                    [MFT_EVENT_TRI] = (double)phase[KERNEL_PHASE_CULLING], [MFT_EVENT_ISECT] = (double)phase[KERNEL_PHASE_INTERSECTION]},
         .events = {[MFT_EVENT_SETUP] = (double)r->options.width * r->options.height, [MFT_EVENT_AABB] = (double)n[KERNEL_aabb_tests],
                    [MFT_EVENT_TRI] = (double)n[KERNEL_tri_accesses], [MFT_EVENT_ISECT] = (double)n[KERNEL_isect_tests]},
@@ -63,7 +64,8 @@ static base_status add_plot(suite *s, const mft_measured *m, base_error *err)
 {
     mft_prediction_points points;
     mft_prediction_points_of(m, &points);
-    const report_plot plot = {points.title, {"published cycles (millions)", true}, {"predicted cycles (millions)", true}, points.series, points.count};
+    const report_plot plot = {points.title, {"published cycles (millions)", true}, {"predicted cycles (millions)", true},
+                              points.series, points.count};
     return suite_add_plot(s, "-plot", &plot, "The reading with the least median error.", err);
 }
 
@@ -72,8 +74,8 @@ static base_status add_results(suite *s, const measured *found, base_error *err)
     const char *const names[MACHINES] = {found->names[0], found->names[1], found->names[2], found->names[3]};
     const mft_measured m = {names, MACHINES, found->events, found->count, (size_t)mft_algorithms_measured()};
     char caption[SUITE_CHANGED_BYTES + 240];
-    snprintf(caption, sizeof caption, "Costs measured at %ux%u pixels on %zu scene%s, machine %s, core model. No cache misses: %s.", s->width, s->height,
-             s->scene_count, s->scene_count == 1 ? "" : "s", s->options->machine->name, found->machines[2].changed);
+    snprintf(caption, sizeof caption, "Costs measured at %ux%u pixels on %zu scene%s, machine %s, core model. No cache misses: %s.",
+             s->width, s->height, s->scene_count, s->scene_count == 1 ? "" : "s", s->options->machine->name, found->machines[2].changed);
     report_page_add_heading(s->page, 1, "Errors");
     base_status status = suite_add_table(s, "", mft_prediction_summary(&m, caption), err);
     if (status == BASE_OK)
@@ -103,8 +105,9 @@ const suite_info suite_mft_prediction = {
     .name = "mft-prediction",
     .summary = "the counts that the MFT paper published through the simulated core, against its cycles",
     .title = "the MFT paper's counts through the simulated core",
-    .about = "What a box test, a triangle access, an intersection test and the set-up of a pixel cost in the core model, measured on scenes of ours, times "
-             "the counts that Benthin and Wald published in Table 1 (2009), against the cycles that they published. No constant is fitted to the paper.",
+    .about = "What a box test, a triangle access, an intersection test and the set-up of a pixel cost in the core model, measured "
+             "on scenes of ours, times the counts that Benthin and Wald published in Table 1 (2009), against the cycles that they "
+             "published. No constant is fitted to the paper.",
     .scenes = mft_suite_scenes,
     .size = 512,
     .takes = SUITE_TAKES_ERROR,

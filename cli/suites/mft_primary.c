@@ -81,8 +81,9 @@ static base_status add_pictures(suite *s, const measured *m, base_error *err)
 {
     base_status status = BASE_OK;
     report_page_add_heading(s->page, 1, "Pictures");
-    report_page_add_paragraph(s->page, "Left: the scene as the rays hit it, lit by a point at its light's centre, without shadows. Then simulated "
-                                       "cycles per pixel (issue model) of packets and of frusta, on the scale of the packets.");
+    report_page_add_paragraph(s->page, "Left: the scene as the rays hit it, lit by a point at its light's centre, without shadows. "
+                                       "Then simulated cycles per pixel (issue model) of packets and of frusta, on the scale of "
+                                       "the packets.");
     for (size_t i = 0; status == BASE_OK && i < m->count; i++) {
         const pictures *p = &m->pictures[i];
         const report_figure figures[] = {
@@ -101,9 +102,9 @@ static base_status add_pictures(suite *s, const measured *m, base_error *err)
 static base_status add_results(suite *s, const measured *m, base_error *err)
 {
     char caption[400];
-    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, back faces culled as in the paper; packets through a BVH of at most %u "
-             "triangles a leaf, frusta of at most %u.", s->width, s->height, s->options->machine->name,
-             kernel_find("packet16-primary")->defaults.max_leaf, kernel_find("mft-primary")->defaults.max_leaf);
+    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, back faces culled as in the paper; packets through a BVH of at "
+                                      "most %u triangles a leaf, frusta of at most %u.",
+             s->width, s->height, s->options->machine->name, kernel_find("packet16-primary")->defaults.max_leaf, kernel_find("mft-primary")->defaults.max_leaf);
     report_page_add_paragraph(s->page, caption);
     report_page_add_heading(s->page, 1, "Tables");
     base_status status = suite_add_table(s, "", packet_frusta_counts(m->rows, m->count, caption), err);
@@ -131,8 +132,9 @@ const suite_info suite_mft_primary = {
     .name = "mft-primary",
     .summary = "packets against multi-frusta tracing for primary rays, issue model (Benthin and Wald 2009, Table 1)",
     .title = "packets against multi-frusta tracing",
-    .about = "Primary rays of Benthin and Wald's multi-frusta tracing (2009) against packets of 4x4 rays, on a simulated 16-lane machine. "
-             "Counts, ops and cycles are functions of scene, image size, kernel and machine alone: every host gives the same digits.",
+    .about = "Primary rays of Benthin and Wald's multi-frusta tracing (2009) against packets of 4x4 rays, on a simulated 16-lane "
+             "machine. Counts, ops and cycles are functions of scene, image size, kernel and machine alone: every host gives the "
+             "same digits.",
     .size = 1024,
     .measure = measure,
 };

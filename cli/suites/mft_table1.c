@@ -14,7 +14,8 @@ typedef struct measured {
 
 /* The rendered picture with the first algorithm. Heat maps share the scale of the packets before them, which are the dearer; cycles of
    pixels are known only if all tiles were simulated. */
-static base_status write_pictures(const suite *s, const suite_scene *on, measured *m, const run_result *r, mft_algorithm a, double *top, base_error *err)
+static base_status write_pictures(const suite *s, const suite_scene *on, measured *m, const run_result *r, mft_algorithm a,
+                                  double *top, base_error *err)
 {
     char rest[60];
     char(*paths)[SUITE_PATH_BYTES] = m->pictures[m->scenes];
@@ -57,8 +58,8 @@ static base_status add_pictures(suite *s, const measured *m, base_error *err)
 {
     base_status status = BASE_OK;
     report_page_add_heading(s->page, 1, "Pictures");
-    report_page_add_paragraph(s->page, "The scene as its rays hit it, lit by a point at its light's centre, and simulated cycles per pixel of each "
-                                       "algorithm, frusta on the scale of their packets.");
+    report_page_add_paragraph(s->page, "The scene as its rays hit it, lit by a point at its light's centre, and simulated cycles "
+                                       "per pixel of each algorithm, frusta on the scale of their packets.");
     for (size_t i = 0; status == BASE_OK && i < m->scenes; i++) {
         report_figure figures[1 + MFT_ALGORITHMS] = {{m->pictures[i][0], "rendered picture", "rendered picture"}};
         const size_t count = s->options->error > 0 ? 1 : 1 + (size_t)mft_algorithms_measured();
@@ -73,8 +74,9 @@ static base_status add_pictures(suite *s, const measured *m, base_error *err)
 static base_status add_results(suite *s, const measured *m, base_error *err)
 {
     char caption[300];
-    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, core model, %u threads; back faces culled, packets through a BVH of at most %u triangles a leaf, "
-             "frusta of at most %u.", s->width, s->height, s->options->machine->name, s->options->machine->threads,
+    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, core model, %u threads; back faces culled, packets through a BVH "
+                                      "of at most %u triangles a leaf, frusta of at most %u.",
+             s->width, s->height, s->options->machine->name, s->options->machine->threads,
              kernel_find(mft_kernel(MFT_P_PACKET))->defaults.max_leaf, kernel_find(mft_kernel(MFT_P_FRUSTA))->defaults.max_leaf);
     report_page_add_heading(s->page, 1, "Tables");
     base_status status = suite_add_table(s, "", mft_table1_counts(m->rows, m->count, caption), err);
@@ -102,8 +104,9 @@ const suite_info suite_mft_table1 = {
     .name = "mft-table1",
     .summary = "packets against multi-frusta tracing, core model (Benthin and Wald 2009, Table 1)",
     .title = "MFT Table 1",
-    .about = "Table 1 of Benthin and Wald's 'Efficient Ray Traced Soft Shadows using Multi-Frusta Tracing' (2009): packets of 4x4 rays (P-Packet, "
-             "S-Packet) against multi-frusta tracing (P-Frusta, S-Frusta), for primary rays (P) and for soft shadows (S), measured here and as published.",
+    .about = "Table 1 of Benthin and Wald's 'Efficient Ray Traced Soft Shadows using Multi-Frusta Tracing' (2009): packets of 4x4 "
+             "rays (P-Packet, S-Packet) against multi-frusta tracing (P-Frusta, S-Frusta), for primary rays (P) and for soft "
+             "shadows (S), measured here and as published.",
     .scenes = mft_suite_scenes,
     .size = 1024,
     .takes = SUITE_TAKES_ERROR,

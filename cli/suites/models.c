@@ -9,7 +9,7 @@
 
 enum { MOST_TRIES = 5 };
 
-static const double enough_seconds = 0.5; /* a run is tried again until its tries took so long; the shortest one counts */
+static const double enough_seconds = 0.2; /* a run is tried again until its tries took so long; the shortest one counts */
 
 /* A row of every kernel and scene. */
 typedef struct way {
@@ -40,7 +40,8 @@ typedef struct measured {
 } measured;
 
 /* The least time of some tries; the results of all are the same. */
-static base_status run_way(const suite *s, const suite_scene *on, const kernel_info *kernel, const way *w, const suite_machine *v, model_speed *row, base_error *err)
+static base_status run_way(const suite *s, const suite_scene *on, const kernel_info *kernel, const way *w, const suite_machine *v,
+                           model_speed *row, base_error *err)
 {
     run_options options = suite_run_options(s, kernel, w->model);
     double spent = 0;
@@ -102,8 +103,9 @@ static base_status add_plot(suite *s, const measured *m, base_error *err)
                               {"error of the cycles against the full core (%)", true}, series.series, series.count};
     report_page_add_heading(s->page, 1, "Plot");
     if (status == BASE_OK)
-        status = suite_add_plot(s, "-speed-error", &plot, "A point for each kernel and scene. The lower left is where one wants to be. Runs without "
-                                "an error, the full core's among them, have no place on a logarithmic axis and are left out.", err);
+        status = suite_add_plot(s, "-speed-error", &plot, "A point for each kernel and scene. The lower left is where one wants to "
+                                                          "be. Runs without an error, the full core's among them, have no place on "
+                                                          "a logarithmic axis and are left out.", err);
     model_speed_series_destroy(&series);
     return status;
 }
@@ -111,7 +113,8 @@ static base_status add_plot(suite *s, const measured *m, base_error *err)
 static base_status add_results(suite *s, const measured *m, base_error *err)
 {
     char caption[200];
-    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, %u host thread%s; host time is processor time, the least of up to %d runs.", s->width, s->height,
+    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, %u host thread%s; host time is processor time, the least of up to "
+                                      "%d runs.", s->width, s->height,
              s->options->machine->name, s->jobs, s->jobs == 1 ? "" : "s", MOST_TRIES);
     report_page_add_heading(s->page, 1, "Summary");
     base_status status = suite_add_table(s, "-summary", model_speeds_summary(m->rows, m->count, caption), err);
@@ -145,10 +148,10 @@ const suite_info suite_models = {
     .name = "models",
     .summary = "host time and error of the cycles of every model, and of sampled runs, against the full core",
     .title = "speed against error of the models",
-    .about = "What a simpler model of the machine saves in host time, and how far its cycles are off. The models are those of --model; the core "
-             "is also simulated without one of its parts at a time, by fields of the machine that say exactly that, and on a sample of the tiles "
-             "(--error). Without caches every access hits the first level, whose banks remain; without threads the core has one; without "
-             "mispredictions a branch costs its slot and no more.",
+    .about = "What a simpler model of the machine saves in host time, and how far its cycles are off. The models are those of "
+             "--model; the core is also simulated without one of its parts at a time, by fields of the machine that say exactly "
+             "that, and on a sample of the tiles (--error). Without caches every access hits the first level, whose banks remain; "
+             "without threads the core has one; without mispredictions a branch costs its slot and no more.",
     .scenes = scenes,
     .size = 512,
     .jobs = 1,

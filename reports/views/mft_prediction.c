@@ -138,8 +138,9 @@ static void say_farthest(report_table *t, const mft_measured *m, reading r, cons
         main_event = p->part[e] > p->part[main_event] ? e : main_event;
     const double cost = cost_of(m, r.machine, p->algorithm, (mft_event)main_event), events = p->part[main_event] / cost;
     say_reading(m, r, name);
-    int length = snprintf(words, sizeof words, "Least median error: %s. Farthest off under it: %s, %s, %+.1f%%. Of its predicted cycles %.0f%% are for '%s', "
-                          "at %.1f cycles; all else being right, %.1f would be. On the machines here the same costs", name,
+    int length = snprintf(words, sizeof words, "Least median error: %s. Farthest off under it: %s, %s, %+.1f%%. Of its predicted "
+                                               "cycles %.0f%% are for '%s', at %.1f cycles; all else being right, %.1f would be. "
+                                               "On the machines here the same costs", name,
                           mft_scenes[p->scene].name, mft_algorithm_names[p->algorithm], error_of(p), 100 * p->part[main_event] / p->predicted,
                           event_names[main_event], cost, cost + (p->published - p->predicted) / events);
     for (size_t i = 0; i < m->machine_count && length < (int)sizeof words; i++)
@@ -180,9 +181,10 @@ report_table *mft_prediction_summary(const mft_measured *m, const char *caption)
         say_farthest(t, m, best, &e.farthest);
     if (!whole)
         report_table_add_note(t, "Rows of an algorithm are not predicted if an event did not happen in it on any of the scenes.");
-    report_table_add_note(t, "Errors by their size, without their sign. Predicted: the paper's counts of a row times what such events cost here, on other "
-                             "scenes and with no constant fitted to the paper. What the paper leaves open is read both ways: whether its AABB test is one "
-                             "box or the pair of a node, whether one hardware thread ran or all, and whether its simulator knew cache misses.");
+    report_table_add_note(t, "Errors by their size, without their sign. Predicted: the paper's counts of a row times what such "
+                             "events cost here, on other scenes and with no constant fitted to the paper. What the paper leaves "
+                             "open is read both ways: whether its AABB test is one box or the pair of a node, whether one hardware "
+                             "thread ran or all, and whether its simulator knew cache misses.");
     return t;
 }
 
@@ -221,9 +223,10 @@ report_table *mft_prediction_costs(const mft_measured *m, const char *caption)
             for (int e = 0; e < MFT_EVENTS; e++)
                 add_cost(t, m, machine, (mft_algorithm)a, (mft_event)e);
         }
-    report_table_add_note(t, "Cycles of a phase of the kernel over the number of its events, both summed over the scenes: traversal (box tests, children, stack, "
-                             "leaves entered) by boxes; culling by triangles accessed; intersection by tests; set-up and shading by pixels. Phases sum to "
-                             "the run's cycles. A packet has 16 pixels, a group of frusta 256.");
+    report_table_add_note(t, "Cycles of a phase of the kernel over the number of its events, both summed over the scenes: "
+                             "traversal (box tests, children, stack, leaves entered) by boxes; culling by triangles accessed; "
+                             "intersection by tests; set-up and shading by pixels. Phases sum to the run's cycles. A packet has 16 "
+                             "pixels, a group of frusta 256.");
     return t;
 }
 

@@ -87,12 +87,14 @@ report_table *mft_table1_counts(const mft_row *rows, size_t count, const char *c
             add_published(t, scene, rows[i].algorithm);
     }
     add_rest(t, rows, count);
-    report_table_add_note(t, "Published counts are rounded to thousands, cycles to hundred thousands, and of 1024x1024 pixels. The built-in scenes stand "
-                             "in for the paper's: they share the number of triangles and nothing else. Doubtful readings: the copy of the paper at hand "
-                             "is damaged there, and the number was inferred or does not agree with another (reports/papers/mft_table1.csv says why).");
-    report_table_add_note(t, "Memory: cycles in which no thread issued, and the next one to issue waited for a line from beyond the first level of cache. Measured cycles "
-                             "are those of the core model, without shading for primary rays; the published ones are of the paper's own "
-                             "simulator of a core, of which it tells little. AABB and intersection tests are 16-lane operations, one box or triangle each.");
+    report_table_add_note(t, "Published counts are rounded to thousands, cycles to hundred thousands, and of 1024x1024 pixels. The "
+                             "built-in scenes stand in for the paper's: they share the number of triangles and nothing else. "
+                             "Doubtful readings: the copy of the paper at hand is damaged there, and the number was inferred or "
+                             "does not agree with another (reports/papers/mft_table1.csv says why).");
+    report_table_add_note(t, "Memory: cycles in which no thread issued, and the next one to issue waited for a line from beyond "
+                             "the first level of cache. Measured cycles are those of the core model, without shading for primary "
+                             "rays; the published ones are of the paper's own simulator of a core, of which it tells little. AABB "
+                             "and intersection tests are 16-lane operations, one box or triangle each.");
     return t;
 }
 
@@ -140,8 +142,8 @@ report_table *mft_table1_reductions(const mft_row *rows, size_t count, const cha
                 report_table_begin_group(t, NULL);
                 add_published_reduction(t, scene, (mft_algorithm)a);
             }
-    report_table_add_note(t, "Published reductions are formed from the published counts, as the measured ones are; the paper prints some of them "
-                             "truncated, and two of them do not agree with its own counts.");
+    report_table_add_note(t, "Published reductions are formed from the published counts, as the measured ones are; the paper "
+                             "prints some of them truncated, and two of them do not agree with its own counts.");
     return t;
 }
 
@@ -152,8 +154,9 @@ static void say_row(char *text, size_t size, const mft_row *row, size_t scene)
     double of[MFT_METRICS];
     for (int m = 0; m < MFT_METRICS; m++)
         of[m] = row->value[m] / row->pixels / (paper.value[m] / mft_paper_pixels);
-    snprintf(text, size, "%s has %.2f times the published triangle accesses a pixel, %.2f times the AABB tests, %.2f times the intersection "
-             "tests and %.2f times the cycles, %.0f%% of them waiting for memory", mft_algorithm_names[row->algorithm], of[MFT_TRIS], of[MFT_AABB],
+    snprintf(text, size, "%s has %.2f times the published triangle accesses a pixel, %.2f times the AABB tests, %.2f times the "
+                         "intersection tests and %.2f times the cycles, %.0f%% of them waiting for memory",
+             mft_algorithm_names[row->algorithm], of[MFT_TRIS], of[MFT_AABB],
              of[MFT_ISECT], of[MFT_CYCLES], 100 * row->memory);
 }
 
@@ -188,7 +191,8 @@ report_table *mft_table1_differences(const mft_row *rows, size_t count)
 {
     char caption[160];
     report_table *t = report_table_create("Where reductions differ");
-    snprintf(caption, sizeof caption, "Reductions of AABB tests and cycles that differ from the published one by more than a factor of %.2f, and where from.", large);
+    snprintf(caption, sizeof caption, "Reductions of AABB tests and cycles that differ from the published one by more than a "
+                                      "factor of %.2f, and where from.", large);
     report_table_set_caption(t, caption);
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "rays"});

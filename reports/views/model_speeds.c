@@ -65,10 +65,12 @@ report_table *model_speeds_table(const model_speed *rows, size_t count, const ch
             report_table_begin_group(t, NULL);
         add_row(t, &rows[i]);
     }
-    report_table_add_note(t, "Host times, seconds of processor time of all host threads, depend on the host, its load and the compiler, and so do the multiples; they are no part of any baseline. All "
-                             "other columns are the same on every host.");
-    report_table_add_note(t, "Error: cycles against those of `core`, the full model. `count` waits for nothing, `issue` times one thread that has the core to itself. Where half of a run's "
-                             "units of tiles do not bound the error as asked for, all tiles are simulated, after the sampling: slower than `core`, no error.");
+    report_table_add_note(t, "Host times, seconds of processor time of all host threads, depend on the host, its load and the "
+                             "compiler, and so do the multiples; they are no part of any baseline. All other columns are the same "
+                             "on every host.");
+    report_table_add_note(t, "Error: cycles against those of `core`, the full model. `count` waits for nothing, `issue` times one "
+                             "thread that has the core to itself. Where half of a run's units of tiles do not bound the error as "
+                             "asked for, all tiles are simulated, after the sampling: slower than `core`, no error.");
     return t;
 }
 

@@ -95,7 +95,7 @@ def models__own_scene__cycles_of_every_model_as_run_alone(folder):
 
 
 def models__builtin_scene__cycles_do_not_depend_on_jobs(folder):
-    arguments = ['--scene', 'builtin:rooms-804', '--size', '48x48', '--no-pictures', '--set', 'l1.latency=4']
+    arguments = ['--scene', 'builtin:rooms-804', '--size', '32x32', '--no-pictures', '--set', 'l1.latency=4', '--kernel', 'packet16-primary']
     one, two = (report(folder + '/' + jobs, 'models', *arguments, '--jobs', jobs) for jobs in '12' if not os.mkdir(folder + '/' + jobs))
     title = 'Models: host time, and error of the cycles'
     assert [(r['kernel'], r['model'], r['cycles']) for r in one[title]] == [(r['kernel'], r['model'], r['cycles']) for r in two[title]]
@@ -110,12 +110,12 @@ TABLE1 = 'MFT Table 1: measured, and published by Benthin and Wald 2009'
 
 def mft_table1__builtin_scenes__as_run_alone_and_published_beside(folder):
     pictures = [] if HAVE_IMAGES else ['--no-pictures']
-    tables = report(folder, 'mft-table1', '--scene', 'builtin:hall-60k', '--scene', 'builtin:rooms-804', '--size', '48x40', *pictures)
+    tables = report(folder, 'mft-table1', '--scene', 'builtin:hall-60k', '--scene', 'builtin:rooms-804', '--size', '32x24', *pictures)
     rows = tables[TABLE1]
     published = [row for row in rows if row['basis'] == 'published']
     assert len(published) == 16 and len({(row['scene'], row['algorithm']) for row in published}) == 16
     for kernel, algorithm in (('packet16-primary', 'P-Packet'), ('mft-primary', 'P-Frusta')):
-        stats = stats_of(kernel, '--scene', 'builtin:rooms-804', '--size', '48x40', '--param', 'cull_backface=1')
+        stats = stats_of(kernel, '--scene', 'builtin:rooms-804', '--size', '32x24', '--param', 'cull_backface=1')
         row = next(r for r in rows if r['scene'] == 'rooms-804' and r['algorithm'] == algorithm)
         assert row['cycles'] == stats['cycles']['total'] and row['AABB tests'] == stats['counts']['aabb_tests']
     at = next(i for i, r in enumerate(rows) if r['scene'] == 'hall-60k' and r['algorithm'] == 'P-Frusta')
@@ -135,7 +135,7 @@ def mft_table1__own_scene__sampled(folder):
     scene = own_scene(folder)
     if unread(scene):
         return unread(scene)
-    tables = report(folder, 'mft-table1', '--scene', scene, '--size', '64x64', '--error', '0.1', '--no-pictures')
+    tables = report(folder, 'mft-table1', '--scene', scene, '--size', '48x48', '--error', '0.1', '--no-pictures')
     assert [r['basis'] for r in tables[TABLE1]] == ['measured'] * (4 if 'mft-soft' in run('kernels').stdout else 2) + ['published'] * 16 and tables['Where reductions differ'] == []
     fails(['report', 'mft-table1', '--error', '1.5', '--out', folder + '/no'], '--error')
     fails(['report', 'mft-table1', '--error', 'x', '--out', folder + '/no'], '--error')
@@ -146,12 +146,12 @@ PUBLISHED = {'T-Rex (69K tri)': (58e3, 173e3, 125e3, 19.5e6), 'Call of Juarez Sa
 
 
 def mft_prediction__two_scenes__costs_times_published_counts(folder):
-    scenes, small = ['rooms-804', 'hall-60k'], ['--size', '32x32']
+    scenes, small = ['rooms-804', 'hall-60k'], ['--size', '16x16']
     arguments = [word for scene in scenes for word in ('--scene', 'builtin:' + scene)] + small
     tables = report(folder, 'mft-prediction', *arguments)
     stats = [stats_of('mft-primary', '--scene', 'builtin:' + scene, *small, '--param', 'cull_backface=1', '--set', 'threads=1') for scene in scenes]
     cost = {phase: sum(s['cycles']['by_phase'][phase] for s in stats) / sum(events(s['counts']) for s in stats) for phase, events in {
-        'setup': lambda n: 32 * 32, 'traversal': lambda n: n['aabb_tests'], 'culling': lambda n: n['tri_accesses'],
+        'setup': lambda n: 16 * 16, 'traversal': lambda n: n['aabb_tests'], 'culling': lambda n: n['tri_accesses'],
         'intersection': lambda n: n['isect_tests']}.items()}
     rows = {(r['group'], r['scene'], r['algorithm']): r for r in tables['Predicted and published cycles']}
     for scene, (boxes, triangles, tests, cycles) in PUBLISHED.items():
@@ -175,7 +175,7 @@ def mft_prediction__own_scene__all_forms(folder):
     scene = own_scene(folder)
     if unread(scene):
         return unread(scene)
-    tables = report(folder, 'mft-prediction', '--scene', scene, '--size', '32x32', '--no-pictures', '--machine', 'knc', '--set', 'threads=2')
+    tables = report(folder, 'mft-prediction', '--scene', scene, '--size', '16x16', '--no-pictures', '--machine', 'knc', '--set', 'threads=2')
     assert {r['machine'] for r in tables['What events cost']} == {'2 threads', '1 thread', '2 threads, no cache misses', '1 thread, no cache misses'}
     return None
 
