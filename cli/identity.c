@@ -33,7 +33,7 @@ static json_t *params_json(const kernel_info *kernel, const kernel_params *param
     return object;
 }
 
-static json_t *accel_json(const bvh *tree)
+static json_t *bvh_json(const bvh *tree)
 {
     const double leaves = tree->leaf_count ? (double)tree->leaf_count : 1;
     json_t *object = json_object();
@@ -48,6 +48,26 @@ static json_t *accel_json(const bvh *tree)
     return object;
 }
 
+static json_t *kdtree_json(const kdtree *tree)
+{
+    const size_t full = tree->leaf_count - tree->empty_count;
+    json_t *object = json_object();
+    json_object_set_new(object, "kind", json_string("kdtree"));
+    json_object_set_new(object, "nodes", integer(tree->inner_count + tree->leaf_count));
+    json_object_set_new(object, "leaves", integer(tree->leaf_count));
+    json_object_set_new(object, "empty_leaves", integer(tree->empty_count));
+    json_object_set_new(object, "flat_leaves", integer(tree->flat_count));
+    json_object_set_new(object, "covered_leaves", integer(tree->covered_count));
+    json_object_set_new(object, "enclosed_leaves", integer(tree->enclosed_count));
+    json_object_set_new(object, "depth", integer(tree->depth));
+    json_object_set_new(object, "triangles", integer(tree->record_count));
+    json_object_set_new(object, "degenerate", integer(tree->degenerate_count));
+    json_object_set_new(object, "references", integer(tree->list_count));
+    json_object_set_new(object, "triangles_per_leaf", report_json_real((double)tree->list_count / (full ? (double)full : 1), RATIO_DECIMALS));
+    json_object_set_new(object, "sah_cost", report_json_real(tree->sah_cost, RATIO_DECIMALS));
+    return object;
+}
+
 static json_t *scene_json(const run_result *r)
 {
     char hash[20];
@@ -57,7 +77,7 @@ static json_t *scene_json(const run_result *r)
     json_object_set_new(object, "triangles", integer(r->scene->triangle_count));
     json_object_set_new(object, "hash", json_string(hash));
     json_object_set_new(object, "camera", json_string(r->camera->name));
-    json_object_set_new(object, "accel", accel_json(r->tree));
+    json_object_set_new(object, "accel", r->tree ? bvh_json(r->tree) : kdtree_json(r->kdtree));
     return object;
 }
 

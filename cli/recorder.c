@@ -40,7 +40,7 @@ static void append(void *user, const lrb_event *events, uint32_t count)
 base_status recorder_create(const recorder_input *input, const sim_machine *machine, unsigned worker, recorder *out, base_error *err)
 {
     *out = (recorder){.input = input, .worker = worker};
-    base_status status = sim_chain_meter_create(machine, &out->meter, err);
+    base_status status = input->sampled ? BASE_OK : sim_chain_meter_create(machine, &out->meter, err);
     if (status == BASE_OK && input->registers)
         status = sim_registers_create(sim_file_registers, &out->registers, err);
     if (status != BASE_OK)
@@ -116,7 +116,7 @@ base_status recorder_tile(recorder *r, size_t tile, recording *into, base_error 
     into->count = 0;
     into->failed = !grow(into, 1);
     base_status status = r->source ? read_tile(r, (uint32_t)tile, into, err) : record_tile(r, (uint32_t)tile, into, err);
-    if (status == BASE_OK)
+    if (status == BASE_OK && r->meter)
         sim_chain_meter_tile(r->meter, into->events, into->count, &r->chains);
     return status;
 }

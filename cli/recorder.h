@@ -42,6 +42,7 @@ typedef struct recorder_input {
     tile_exchange *exchange;      /* of a replay on several machines: the others that read the trace, or NULL */
     unsigned member;              /* number among them */
     const core_watch *watch;      /* or NULL; of a single core */
+    bool sampled; /* of some tiles only: chains are not measured */
     bool annotated, registers;    /* of a run: take the annotated kernel; analyse what registers its tiles need */
 } recorder_input;
 
@@ -52,7 +53,7 @@ typedef struct recorder {
     lrb_ctx *ctx;    /* of a run */
     trace_source *source; /* of a replay */
     kernel_counts counts; /* of all tiles so far */
-    sim_chain_meter *meter;
+    sim_chain_meter *meter; /* or NULL */
     sim_chains chains;    /* of all tiles so far */
     sim_registers *registers; /* or NULL */
     recording *into;

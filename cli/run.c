@@ -300,57 +300,101 @@ static base_status trace(run_result *result, base_error *err)
     return status;
 }
 
+static base_status build_bvh(run_result *r, base_error *err)
+{
+    const kernel_params *params = &r->options.params;
+    bvh_options options = bvh_options_default();
+    options.max_leaf = params->max_leaf;
+    options.bins = params->bins;
+    options.jobs = r->options.jobs;
+    return bvh_build(r->scene, &options, &r->tree, err);
+}
+
+/* The tree, its occluders marked for rays from the camera and, of hard shadows, from the light. */
+static base_status build_kdtree(run_result *r, base_error *err)
+{
+    const kernel_params *params = &r->options.params;
+    const scene_primary_rays rays = scene_camera_rays(r->camera, r->options.width, r->options.height);
+    float origins[2][3];
+    kdtree_options options = kdtree_options_default();
+    options.empty_percent = params->empty_percent;
+    options.covered_planes = params->covered_planes;
+    options.min_area = params->min_area;
+    options.perfect_splits = params->perfect_splits;
+    options.empty_occluders = params->empty_occluders;
+    options.jobs = r->options.jobs;
+    for (int axis = 0; axis < 3; axis++) {
+        origins[0][axis] = rays.origin[axis];
+        origins[1][axis] = (float)r->scene->light.point[axis];
+    }
+    base_status status = kdtree_build(r->scene, &options, &r->kdtree, err);
+    if (status == BASE_OK && params->empty_occluders)
+        status = kdtree_mark_occluders(r->kdtree, origins, params->hard_shadows ? 2 : 1, err);
+    return status;
+}
+
+/* The tree that the kernel traverses, and the job on it. */
+static base_status prepare(run_result *r, base_error *err)
+{
+    const run_options *o = &r->options;
+    const bool kd = o->kernel->accel == KERNEL_ACCEL_KDTREE;
+    double start = clock_seconds();
+    base_status status = kd ? build_kdtree(r, err) : build_bvh(r, err);
+    r->build_seconds = clock_seconds() - start;
+    if (status != BASE_OK)
+        return status;
+    return kd ? kernel_job_create_kdtree(r->kdtree, r->camera, &r->scene->light, o->width, o->height, &o->params, &r->job, err)
+              : kernel_job_create(r->tree, r->camera, &r->scene->light, o->width, o->height, &o->params, &r->job, err);
+}
+
 base_status run_kernel(const scene *s, const sim_machine *machine, const run_options *options, run_result *out, base_error *err)
 {
     *out = (run_result){.options = *options, .scene = s, .scene_name = s->name, .triangle_count = s->triangle_count, .machine = machine};
-    bvh_options tree_options = bvh_options_default();
-    tree_options.max_leaf = options->params.max_leaf;
-    tree_options.bins = options->params.bins;
-    tree_options.jobs = options->jobs;
     base_status status = scene_find_camera(s, options->camera, &out->camera, err);
-    if (status != BASE_OK)
-        return status;
-    double start = clock_seconds();
-    status = bvh_build(s, &tree_options, &out->tree, err);
-    out->build_seconds = clock_seconds() - start;
     if (status == BASE_OK)
-        status = kernel_job_create(out->tree, out->camera, &s->light, options->width, options->height, &options->params, &out->job, err);
-    if (status == BASE_OK)
-        status = trace(out, err);
-    return status;
+        status = prepare(out, err);
+    return status == BASE_OK ? trace(out, err) : status;
 }
 
 void run_result_destroy(run_result *result)
 {
     kernel_job_destroy(&result->job);
     bvh_destroy(&result->tree);
+    kdtree_destroy(&result->kdtree);
     sim_profile_destroy(&result->profile);
     free(result->region_cycles);
     free(result->tile_counts);
     *result = (run_result){0};
 }
 
-/* Pixels of the image in a tile, and in a block of it. */
-static unsigned tile_pixels(const kernel_job *job, uint32_t tile)
+/* Pixels of the image among `edge` x `edge`, the first of which is (x, y). */
+static unsigned pixels_from(const kernel_job *job, unsigned x, unsigned y, unsigned edge)
 {
-    unsigned pixels = 0;
-    for (int block = 0; block < 16; block++)
-        pixels += (unsigned)__builtin_popcount(job->tiles_host[tile].pixels[block]);
-    return pixels;
+    const unsigned right = job->width - x < edge ? job->width - x : edge, down = job->height - y < edge ? job->height - y : edge;
+    return right * down;
+}
+
+/* Pixels of the image in the unit of work that makes pixel (x, y). */
+static unsigned unit_pixels(const kernel_job *job, unsigned x, unsigned y)
+{
+    const unsigned edge = JOB_TILE_PIXELS << job->unit_log2;
+    return pixels_from(job, x / edge * edge, y / edge * edge, edge);
 }
 
 double run_pixel_cycles(const run_result *result, unsigned x, unsigned y)
 {
-    job_pixel p = kernel_job_pixel(result->job, x, y);
-    const double *cycles = result->region_cycles + (size_t)p.tile * (SIM_MAX_REGIONS + 1);
-    double block = cycles[p.block] / __builtin_popcount(result->job->tiles_host[p.tile].pixels[p.block]);
-    return block + cycles[SIM_MAX_REGIONS] / tile_pixels(result->job, p.tile);
+    const kernel_job *job = result->job;
+    const unsigned edge = (JOB_TILE_PIXELS << job->unit_log2) / 4;
+    job_pixel p = kernel_job_pixel(job, x, y);
+    const double *cycles = result->region_cycles + (size_t)p.unit * (SIM_MAX_REGIONS + 1);
+    double block = cycles[p.region] / pixels_from(job, x / edge * edge, y / edge * edge, edge);
+    return block + cycles[SIM_MAX_REGIONS] / unit_pixels(job, x, y);
 }
 
 double run_pixel_count(const run_result *result, kernel_counter counter, unsigned x, unsigned y)
 {
     job_pixel p = kernel_job_pixel(result->job, x, y);
-    return (double)result->tile_counts[p.tile].n[counter] / tile_pixels(result->job, p.tile);
+    return (double)result->tile_counts[p.unit].n[counter] / unit_pixels(result->job, x, y);
 }
 
 report_op_totals run_totals(const run_result *result)

@@ -50,9 +50,10 @@ typedef struct run_result {
     const char *scene_name;
     size_t triangle_count;
     const struct json_t *traced; /* of a replay: what the trace says was run; belongs to the caller. NULL: a run */
-    const scene *scene;          /* this and the next three: of a run only */
+    const scene *scene;          /* this and the next four: of a run only */
     const scene_camera *camera;
-    bvh *tree;
+    bvh *tree;       /* one of the two, what the kernel traverses */
+    kdtree *kdtree;
     kernel_job *job; /* with the frame: nearest hits by pixel */
     const sim_machine *machine;
     kernel_counts counts;
@@ -77,7 +78,7 @@ typedef struct run_result {
  * @param s, machine  owned by the caller; must outlive the result
  * @param out         destroy with run_result_destroy, also after a failure
  *
- * Errors: those of bvh_build, kernel_job_create, scene_find_camera and of the trace's writer; BASE_ERR_NOMEM.
+ * Errors: those of bvh_build and kdtree_build, kernel_job_create, scene_find_camera and of the trace's writer; BASE_ERR_NOMEM.
  */
 base_status run_kernel(const scene *s, const sim_machine *machine, const run_options *options, run_result *out, base_error *err);
 

@@ -6,28 +6,36 @@
 #include "cli/recorder.h"
 #include "lrbni/base/parallel.h"
 #include "sim/core.h"
-#include "sim/count.h"
 #include "sim/sample.h"
+#include "sim/warm.h"
 
 /*
- * Time is cut where tiles are taken: tile k is taken in cycle T(k), when a thread runs dry, and unit [a, b) has the cycles
- * T(b) - T(a), the last one those up to the end. So the units' cycles sum to those of the whole run. In T(a) the other threads
- * are still busy with tiles before a, and in T(b) with tiles of the unit, so a unit is measured by the work that was done in
- * it: the price in `count` of the ops that issued between T(a) and T(b).
+ * A run's cycles are the sum of what its tiles are charged with: a cycle of the core belongs to the thread that issues in it, or
+ * that it waits for. So a unit of tiles has cycles of its own although others are worked on at the same time, and the units'
+ * cycles sum to those of the run. To be charged with what it would be in the run, a unit needs the caches as they would
+ * be, threads that are out of step, and neighbours before and behind it that keep the other threads busy to its end.
  */
 
-/* One simulated core for each stratum: what it simulates, and so what is in its caches, depends on the draws alone. */
+/* What a unit that may be simulated is simulated from. */
+typedef struct start {
+    size_t unit;
+    sim_contents contents; /* of the caches before the first tile of its warm-up */
+} start;
+
+/* One simulated core for each stratum: what its branch predictor has learnt depends on the draws alone. */
 typedef struct sampler {
     const run_result *result;
     recorder_input input;
     sim_core *core;
     recorder recorder;
-    recording *own; /* by hardware thread */
-
-    size_t start; /* first tile that is simulated */
-    size_t next, first, end; /* tiles of the unit on hand: the next one to be taken, the first that counts, the one behind the last */
-    bool ends_run;           /* the unit is the last one */
-    uint64_t cycles, half_cycles; /* of the unit; until its end, what there was before it: in `core`, and in `count` */
+    recording *own;      /* by hardware thread: its tile, */
+    size_t *tile, *used; /* the tile's number, and how many of its events it has been given: of neighbours behind the unit, not all */
+    size_t begin;        /* first tile that is simulated */
+    size_t next;         /* the next one to be taken */
+    size_t first, end;   /* tiles of the unit */
+    size_t left;         /* of these, not done yet */
+    size_t simulated;    /* tiles so far */
+    uint64_t cycles;     /* of the unit's tiles that are done */
     base_error error;
     base_status status;
 } sampler;
@@ -35,50 +43,83 @@ typedef struct sampler {
 /* All of a sampled run. */
 typedef struct sampled_run {
     run_result *result;
-    size_t tiles, units;
-    double *tile_size; /* cycles of a tile in `count` */
-    double *unit_size;
+    size_t tiles, units, rounds; /* rounds: as many as may be needed */
+    double *tile_size;  /* cycles of a tile in `count` */
+    double *unit_size, *unit_lines;
     sim_sample *sample;
+    start *starts;      /* SIM_SAMPLE_STRATA for each round */
+    size_t *by_tile;    /* of the starts, by the tile where they are taken; starts_count of them */
+    size_t starts_count;
     sampler samplers[SIM_SAMPLE_STRATA];
-    size_t drawn[SIM_SAMPLE_STRATA]; /* units of this round */
+    size_t measured;    /* of the starts */
+    size_t round;       /* that is being measured: its first start */
 } sampled_run;
 
-/* The unit begins, or ends. */
-static void mark(sampler *s)
+/* First tile of the warm-up of a unit. */
+static size_t begin_of(const run_result *result, size_t unit)
 {
-    const sim_core_stats stats = sim_core_get(s->core);
-    s->half_cycles = sim_count_half_cycles(s->result->machine, stats.ops) - s->half_cycles;
-    s->cycles = sim_core_cycle(s->core) - s->cycles;
+    const size_t first = unit * RUN_SAMPLE_UNIT, before = RUN_SAMPLE_WARMUP * (size_t)result->machine->threads;
+    return first > before ? first - before : 0;
+}
+
+/* The next piece of a tile behind the unit, a new one if the thread is through with the last. */
+static base_status next_behind(sampler *s, unsigned thread, const lrb_event **events, size_t *count, base_error *err)
+{
+    recording *tile = &s->own[thread];
+    base_status status = BASE_OK;
+    if (s->tile[thread] < s->end || s->used[thread] == tile->count) {
+        if (s->next == s->input.tiles)
+            return BASE_OK;
+        s->tile[thread] = s->next++;
+        s->used[thread] = 0;
+        s->simulated++;
+        status = recorder_tile(&s->recorder, s->tile[thread], tile, err);
+    }
+    const size_t left = tile->count - s->used[thread];
+    *events = tile->events + s->used[thread];
+    *count = left < RUN_SAMPLE_PIECE ? left : RUN_SAMPLE_PIECE;
+    s->used[thread] += *count;
+    return status;
 }
 
 static base_status next_tile(void *user, unsigned thread, const lrb_event **events, size_t *count, base_error *err)
 {
     sampler *s = user;
-    recording *tile = &s->own[thread];
     const unsigned threads = s->result->machine->threads;
     *events = NULL;
-    if (s->next == s->first)
-        mark(s);
-    if (s->next == s->end && !s->ends_run)
-        mark(s);
-    if (s->next >= s->end) {
-        s->next++; /* only the first thread that runs dry marks the end */
+    if (s->left == 0)
         return BASE_OK;
-    }
-    base_status status = recorder_tile(&s->recorder, s->next, tile, err);
-    *events = tile->events;
-    *count = tile->count;
-    if (s->next++ < s->start + threads)
+    if (s->next >= s->end)
+        return next_behind(s, thread, events, count, err);
+    s->tile[thread] = s->next++;
+    s->simulated++;
+    base_status status = recorder_tile(&s->recorder, s->tile[thread], &s->own[thread], err);
+    *events = s->own[thread].events;
+    *count = s->own[thread].count;
+    if (s->begin > 0 && s->tile[thread] < s->begin + threads)
         *count = *count * (thread + 1) / threads; /* threads that begin together do not run dry together */
     return status;
 }
 
+static void tile_done(void *user, unsigned thread, const uint64_t regions[SIM_MAX_REGIONS + 1])
+{
+    sampler *s = user;
+    if (s->tile[thread] < s->first || s->tile[thread] >= s->end)
+        return;
+    for (int i = 0; i <= SIM_MAX_REGIONS; i++)
+        s->cycles += regions[i];
+    s->left--;
+}
+
 static base_status create_sampler(sampler *s, run_result *result, base_error *err)
 {
+    const unsigned threads = result->machine->threads;
     s->result = result;
-    s->input = (recorder_input){.tiles = kernel_job_tiles(result->job), .kernel = result->options.kernel, .job = result->job};
-    s->own = calloc(result->machine->threads, sizeof *s->own);
-    if (!s->own)
+    s->input = (recorder_input){.tiles = kernel_job_tiles(result->job), .kernel = result->options.kernel, .job = result->job, .sampled = true};
+    s->own = calloc(threads, sizeof *s->own);
+    s->tile = calloc(threads, sizeof *s->tile);
+    s->used = calloc(threads, sizeof *s->used);
+    if (!s->own || !s->tile || !s->used)
         return base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     base_status status = recorder_create(&s->input, result->machine, 0, &s->recorder, err);
     if (status == BASE_OK)
@@ -91,6 +132,8 @@ static void destroy_sampler(sampler *s)
     for (unsigned t = 0; s->own && t < s->result->machine->threads; t++)
         recording_free(&s->own[t]);
     free(s->own);
+    free(s->tile);
+    free(s->used);
     recorder_destroy(&s->recorder);
     sim_core_destroy(&s->core);
 }
@@ -100,26 +143,120 @@ static void measure_unit(void *user, size_t which, unsigned worker)
 {
     sampled_run *r = user;
     sampler *s = &r->samplers[which];
-    const sim_core_feed feed = {.next = next_tile, .user = s};
-    const size_t unit = r->drawn[which];
+    const start *from = &r->starts[r->round + which];
+    const sim_core_feed feed = {.next = next_tile, .done = tile_done, .user = s};
     (void)worker;
-    s->first = unit * RUN_SAMPLE_UNIT;
+    s->first = from->unit * RUN_SAMPLE_UNIT;
     s->end = s->first + RUN_SAMPLE_UNIT < r->tiles ? s->first + RUN_SAMPLE_UNIT : r->tiles;
-    s->next = s->start = s->first > RUN_SAMPLE_WARMUP ? s->first - RUN_SAMPLE_WARMUP : 0;
-    s->ends_run = s->end == r->tiles;
-    s->cycles = s->half_cycles = 0;
+    s->left = s->end - s->first;
+    s->next = s->begin = begin_of(r->result, from->unit);
+    s->cycles = 0;
+    sim_core_fill(s->core, &from->contents);
     s->status = sim_core_run(s->core, &feed, &s->error);
-    if (s->ends_run)
-        mark(s);
 }
 
-/* Cycles in `count` of the unit's tiles. */
-static double size_of_unit(const sampled_run *r, size_t unit)
+/* Simulate the units of a round side by side. */
+static base_status measure_round(sampled_run *r, base_error *err)
 {
-    double size = 0;
-    for (size_t tile = unit * RUN_SAMPLE_UNIT; tile < r->tiles && tile < (unit + 1) * RUN_SAMPLE_UNIT; tile++)
-        size += r->tile_size[tile];
-    return size;
+    r->round = r->measured;
+    base_parallel_for(r->result->options.jobs, SIM_SAMPLE_STRATA, measure_unit, r);
+    for (size_t i = 0; i < SIM_SAMPLE_STRATA; i++) {
+        const sampler *s = &r->samplers[i];
+        if (s->status != BASE_OK)
+            return base_fail(err, s->status, s->error.what, "%s", s->error.why);
+        sim_sample_add(r->sample, r->starts[r->round + i].unit, (double)s->cycles);
+    }
+    r->measured += SIM_SAMPLE_STRATA;
+    return BASE_OK;
+}
+
+/* The warmer is a pass over all tiles, whose events go to it as they are recorded. */
+typedef struct warm_pass {
+    sim_warmer *warmer;
+    unsigned thread;
+    uint64_t lines;
+} warm_pass;
+
+static void warm(void *user, const lrb_event *events, uint32_t count)
+{
+    warm_pass *pass = user;
+    pass->lines += sim_warmer_events(pass->warmer, pass->thread, events, count);
+}
+
+/* Lines from memory of all units, and the caches where units may be simulated. */
+static void warm_all(sampled_run *r, warm_pass *pass, lrb_ctx *ctx)
+{
+    const run_result *result = r->result;
+    size_t taken = 0;
+    for (size_t tile = 0; tile < r->tiles; tile++) {
+        while (taken < r->starts_count && begin_of(result, r->starts[r->by_tile[taken]].unit) == tile)
+            sim_contents_assign(&r->starts[r->by_tile[taken++]].contents, sim_warmer_contents(pass->warmer));
+        kernel_counts counts = {{0}};
+        const uint64_t before = pass->lines;
+        pass->thread = (unsigned)(tile % result->machine->threads);
+        lrb_ctx_begin(ctx);
+        result->options.kernel->tile[LRB_RECORD](ctx, result->job, (uint32_t)tile, &counts);
+        lrb_ctx_end(ctx);
+        r->unit_lines[tile / RUN_SAMPLE_UNIT] += (double)(pass->lines - before);
+    }
+    sim_sample_set_second(r->sample, r->unit_lines);
+}
+
+static base_status warm_caches(sampled_run *r, base_error *err)
+{
+    warm_pass pass = {0};
+    lrb_ctx *ctx = NULL;
+    base_status status = sim_warmer_create(r->result->machine, &pass.warmer, err);
+    if (status == BASE_OK)
+        status = lrb_ctx_create(warm, &pass, &ctx, err);
+    if (status == BASE_OK)
+        warm_all(r, &pass, ctx);
+    lrb_ctx_destroy(&ctx);
+    sim_warmer_destroy(&pass.warmer);
+    return status;
+}
+
+/* Put the starts into the order of their units. */
+static void order_starts(sampled_run *r)
+{
+    for (size_t i = 0; i < r->starts_count; i++) {
+        size_t at = i;
+        for (; at > 0 && r->starts[r->by_tile[at - 1]].unit > r->starts[i].unit; at--)
+            r->by_tile[at] = r->by_tile[at - 1];
+        r->by_tile[at] = i;
+    }
+}
+
+/* Rounds that cost less than all tiles, warm-ups and the tiles that are begun behind the units included. */
+static size_t rounds_worthwhile(const sampled_run *r)
+{
+    const size_t threads = r->result->machine->threads, unit = RUN_SAMPLE_UNIT + (RUN_SAMPLE_WARMUP + 1) * threads;
+    const size_t rounds = r->tiles / (unit * SIM_SAMPLE_STRATA);
+    return rounds < RUN_SAMPLE_ROUNDS ? rounds : RUN_SAMPLE_ROUNDS;
+}
+
+/* Draw the units that may be simulated. */
+static base_status draw_units(sampled_run *r, base_error *err)
+{
+    const size_t most = rounds_worthwhile(r);
+    r->starts = calloc(most * SIM_SAMPLE_STRATA + 1, sizeof *r->starts);
+    r->by_tile = calloc(most * SIM_SAMPLE_STRATA + 1, sizeof *r->by_tile);
+    if (!r->starts || !r->by_tile)
+        return base_fail(err, BASE_ERR_NOMEM, "--error", "out of memory for %zu units", r->units);
+    for (; r->rounds < most; r->rounds++) {
+        size_t units[SIM_SAMPLE_STRATA];
+        if (sim_sample_draw(r->sample, units) < SIM_SAMPLE_STRATA)
+            break; /* a stratum of few units is drawn whole */
+        for (size_t i = 0; i < SIM_SAMPLE_STRATA; i++) {
+            start *from = &r->starts[r->starts_count++];
+            from->unit = units[i];
+            base_status status = sim_contents_create(r->result->machine, &from->contents, err);
+            if (status != BASE_OK)
+                return status;
+        }
+    }
+    order_starts(r);
+    return BASE_OK;
 }
 
 static base_status lay_out(sampled_run *r, base_error *err)
@@ -128,30 +265,19 @@ static base_status lay_out(sampled_run *r, base_error *err)
     r->units = (r->tiles + RUN_SAMPLE_UNIT - 1) / RUN_SAMPLE_UNIT;
     r->tile_size = calloc(r->tiles, sizeof *r->tile_size);
     r->unit_size = calloc(r->units, sizeof *r->unit_size);
-    if (!r->tile_size || !r->unit_size)
+    r->unit_lines = calloc(r->units, sizeof *r->unit_lines);
+    if (!r->tile_size || !r->unit_size || !r->unit_lines)
         return base_fail(err, BASE_ERR_NOMEM, "--error", "out of memory for %zu tiles", r->tiles);
-    for (size_t tile = 0; tile < r->tiles; tile++)
+    for (size_t tile = 0; tile < r->tiles; tile++) {
         r->tile_size[tile] = r->result->region_cycles[tile * (SIM_MAX_REGIONS + 1) + SIM_MAX_REGIONS];
-    for (size_t unit = 0; unit < r->units; unit++)
-        r->unit_size[unit] = size_of_unit(r, unit);
+        r->unit_size[tile / RUN_SAMPLE_UNIT] += r->tile_size[tile];
+    }
     base_status status = sim_sample_create(r->unit_size, r->units, r->result->options.seed, &r->sample, err);
+    if (status == BASE_OK)
+        status = draw_units(r, err);
     for (int i = 0; status == BASE_OK && i < SIM_SAMPLE_STRATA; i++)
         status = create_sampler(&r->samplers[i], r->result, err);
     return status;
-}
-
-/* Draw a round and simulate its units side by side. */
-static base_status measure_round(sampled_run *r, base_error *err)
-{
-    const size_t count = sim_sample_draw(r->sample, r->drawn);
-    base_parallel_for(r->result->options.jobs, count, measure_unit, r);
-    for (size_t i = 0; i < count; i++) {
-        const sampler *s = &r->samplers[i];
-        if (s->status != BASE_OK)
-            return base_fail(err, s->status, s->error.what, "%s", s->error.why);
-        sim_sample_add(r->sample, r->drawn[i], (double)s->half_cycles / 2, (double)s->cycles);
-    }
-    return BASE_OK;
 }
 
 /* Scale counts to the sum `total`: rounded, what rounding leaves or takes too much is the largest one's. */
@@ -206,20 +332,56 @@ static void collect(run_result *result, const sampled_run *r)
 {
     const sim_estimate e = sim_sample_estimate(r->sample);
     result->cycles = (uint64_t)(e.total + 0.5);
-    result->estimate = (run_estimate){
-        .half_width_95 = e.total > 0 ? e.half_width_95 / e.total : 0,
-        .tiles_simulated = e.drawn * RUN_SAMPLE_UNIT < r->tiles ? e.drawn * RUN_SAMPLE_UNIT : r->tiles,
-        .tiles = r->tiles,
-    };
+    result->estimate = (run_estimate){.half_width_95 = e.total > 0 ? e.half_width_95 / e.total : 0, .tiles = r->tiles};
+    for (int i = 0; i < SIM_SAMPLE_STRATA; i++)
+        result->estimate.tiles_simulated += r->samplers[i].simulated;
     estimate_stats(result, r);
     spread_cycles(result, r);
 }
 
-/* Is the interval narrow enough? */
-static bool is_known(const sampled_run *r)
+/* How many rounds are to be measured in all: as many as make the interval narrow enough, to judge by those that there are, but not more
+ * than twice these, which may have been bad luck. 0: it is narrow enough now. */
+static size_t rounds_needed(const sampled_run *r)
 {
     const sim_estimate e = sim_sample_estimate(r->sample);
-    return e.half_width_95 <= r->result->options.error * e.total;
+    const size_t rounds = r->measured / SIM_SAMPLE_STRATA, most = r->rounds < 2 * rounds ? r->rounds : 2 * rounds;
+    const double times = e.half_width_95 / (r->result->options.error * e.total);
+    if (times <= 1)
+        return 0;
+    if (rounds == r->rounds)
+        return rounds + 1; /* there are not so many */
+    return (double)rounds * times * times < (double)most ? (size_t)((double)rounds * times * times) + 1 : most;
+}
+
+/* Rounds until the interval is narrow enough. It is looked at as few times as can be: to stop when it happens to be narrow
+ * favours samples that scatter less than the units do. */
+static base_status measure(sampled_run *r, bool *enough, base_error *err)
+{
+    size_t rounds = RUN_SAMPLE_FIRST;
+    base_status status = BASE_OK;
+    while (status == BASE_OK && rounds <= r->rounds && !*enough) {
+        while (status == BASE_OK && r->measured < rounds * SIM_SAMPLE_STRATA)
+            status = measure_round(r, err);
+        if (status == BASE_OK)
+            rounds = rounds_needed(r);
+        *enough = rounds == 0;
+    }
+    return status;
+}
+
+static void destroy(sampled_run *r)
+{
+    for (int i = 0; i < SIM_SAMPLE_STRATA; i++)
+        if (r->samplers[i].result)
+            destroy_sampler(&r->samplers[i]);
+    for (size_t i = 0; i < r->starts_count; i++)
+        sim_contents_destroy(&r->starts[i].contents);
+    sim_sample_destroy(&r->sample);
+    free(r->starts);
+    free(r->by_tile);
+    free(r->tile_size);
+    free(r->unit_size);
+    free(r->unit_lines);
 }
 
 base_status run_sample(run_result *result, bool *enough, base_error *err)
@@ -229,17 +391,12 @@ base_status run_sample(run_result *result, bool *enough, base_error *err)
         return base_fail(err, BASE_ERR_USAGE, "--error", "samples one core, not the %u of --set cores", result->machine->cores);
     base_status status = lay_out(&r, err);
     *enough = false;
-    for (size_t rounds = 1; status == BASE_OK && !*enough && 2 * rounds * SIM_SAMPLE_STRATA <= r.units; rounds++) {
-        status = measure_round(&r, err);
-        *enough = status == BASE_OK && rounds >= RUN_SAMPLE_FIRST && is_known(&r);
-    }
-    if (*enough)
+    if (status == BASE_OK && r.rounds >= RUN_SAMPLE_FIRST)
+        status = warm_caches(&r, err);
+    if (status == BASE_OK)
+        status = measure(&r, enough, err);
+    if (status == BASE_OK && *enough)
         collect(result, &r);
-    for (int i = 0; i < SIM_SAMPLE_STRATA; i++)
-        if (r.samplers[i].own)
-            destroy_sampler(&r.samplers[i]);
-    sim_sample_destroy(&r.sample);
-    free(r.tile_size);
-    free(r.unit_size);
+    destroy(&r);
     return status;
 }

@@ -1,4 +1,4 @@
-/* Sampled simulation: the `count` model on all tiles, the full core on a few, until the cycles are known well enough. */
+/* Sampled simulation: the `count` model and the caches on all tiles, the full core on a few, until the cycles are known well enough. */
 #ifndef CLI_RUN_SAMPLE_H
 #define CLI_RUN_SAMPLE_H
 
@@ -7,8 +7,10 @@
 /* How the tiles are cut; docs/machine-model.md says what for. */
 enum {
     RUN_SAMPLE_UNIT = 8,    /* tiles of a unit, one after the other */
-    RUN_SAMPLE_WARMUP = 16, /* tiles before it that fill the caches and the threads */
-    RUN_SAMPLE_FIRST = 3   /* rounds before the interval is looked at */
+    RUN_SAMPLE_WARMUP = 4,  /* tiles a hardware thread before it, which bring the threads out of step */
+    RUN_SAMPLE_PIECE = 1024, /* events of a tile behind it that a thread is given at once */
+    RUN_SAMPLE_FIRST = 3,   /* rounds before the interval is looked at */
+    RUN_SAMPLE_ROUNDS = 64 /* at most: the caches are kept for each unit of these */
 };
 
 /**
@@ -17,7 +19,7 @@ enum {
  *
  * The `count` model has run over all tiles: its cycles are in region_cycles.
  *
- * @param enough  out: false if half the units were drawn and the interval is still too wide: all tiles are cheaper then, and
+ * @param enough  out: false if as many units as cost less than all tiles, or RUN_SAMPLE_ROUNDS of them, are not enough: all tiles are cheaper then, and
  *                the result is as it was
  *
  * Errors: BASE_ERR_NOMEM, BASE_ERR_USAGE if the machine has several cores.

@@ -19,7 +19,7 @@ static const double FLAT = 0x1p-18;
 /* A triangle as the filter sees it, in double, relative to the origin. */
 typedef struct seen {
     double edge[3][3]; /* planes through the origin and the edges, turned so that a hit has no dot product below 0 */
-    double below[3];   /* per unit of length of a direction: dot products below minus this are misses */
+    double sure[3];    /* per unit of length of a direction: dot products below minus this are misses, above this clear of the edge */
     bool known;        /* the filter may be used */
     bool none;         /* cannot be hit at all */
 } seen;
@@ -37,13 +37,15 @@ typedef struct candidate {
     uint32_t id;
     exact_hit hit;
     bool counts;      /* it is hit, from a side that counts */
-    double border;    /* distance from the border [exact_border_ulp] */
-    double slope;     /* change of t as the plane moves by 2^-24 of the largest distance at hand */
+    double border;    /* distance from the border [exact_border_ulp], or at least FILTER_ULP */
+    double unit;      /* 2^-24 of the largest distance at hand */
+    double slope;     /* change of t as the plane moves by that much */
     double allowance; /* what t may be off */
 } candidate;
 
 struct trial_ray {
     const trial_view *view;
+    double direction[3];
     candidate *candidates; /* `room` with their hits initialised */
     size_t count, room, nearest; /* nearest == SIZE_MAX: none */
 };
@@ -106,7 +108,7 @@ static seen see(const scene_triangle *t, const float origin[3])
     for (int i = 0; i < 3; i++) {
         const int from = (i + 1) % 3, to = (i + 2) % 3;
         cross(v[from], v[to], s.edge[i]);
-        s.below[i] = FILTER_ULP * 0x1p-23 * length(s.edge[i]) + DETERMINANT_ERROR * size[from] * size[to];
+        s.sure[i] = FILTER_ULP * 0x1p-23 * length(s.edge[i]) + DETERMINANT_ERROR * size[from] * size[to];
     }
     const double volume = dot(s.edge[0], v[0]);
     s.known = !s.none && fabs(volume) > FLAT * size[0] * size[1] * size[2];
@@ -187,7 +189,8 @@ static void set_allowance(candidate *c, const scene_triangle *t, const float ori
         farthest = fmax(farthest, length(v[k]));
     }
     plane_of(v, e, f, n);
-    c->slope = 0x1p-24 * (farthest + fabs(c->hit.t_double) * length(d)) * length(n) / fabs(dot(n, d));
+    c->unit = 0x1p-24 * fmax(farthest, fabs(c->hit.t_double) * length(d));
+    c->slope = c->unit * length(n) / fabs(dot(n, d));
     c->allowance = TRIAL_PLANE_ULP * c->slope + 0x1p-22 * fabs(c->hit.t_double);
 }
 
@@ -201,7 +204,7 @@ static bool may_be_hit(const candidate *c) { return c->counts || c->border <= TR
 static bool must_be_hit(const candidate *c) { return c->counts && c->border > TRIAL_EDGE_ULP && !at_start(c); }
 
 /* Take up a triangle if there is anything to say about it. */
-static base_status examine(trial_ray *ray, uint32_t id, const float direction[3], base_error *err)
+static base_status examine(trial_ray *ray, uint32_t id, const float direction[3], bool clear, base_error *err)
 {
     const trial_view *view = ray->view;
     const scene_triangle *t = &view->triangles[id];
@@ -212,8 +215,8 @@ static base_status examine(trial_ray *ray, uint32_t id, const float direction[3]
     const bool hit = exact_ray_triangle(view->origin, direction, t->v[0], t->v[1], t->v[2], &c->hit);
     c->id = id;
     c->counts = hit && (!view->cull || c->hit.facing > 0);
-    c->border = exact_border_ulp(view->origin, direction, t->v[0], t->v[1], t->v[2]);
-    c->slope = c->allowance = 0;
+    c->border = clear ? FILTER_ULP : exact_border_ulp(view->origin, direction, t->v[0], t->v[1], t->v[2]);
+    c->unit = c->slope = c->allowance = 0;
     if (c->hit.facing != 0)
         set_allowance(c, t, view->origin, direction);
     if (!may_be_hit(c))
@@ -224,10 +227,19 @@ static base_status examine(trial_ray *ray, uint32_t id, const float direction[3]
     return BASE_OK;
 }
 
-static bool passed_over(const seen *s, const double d[3], double size)
+/* What double precision knows of a ray and a triangle. */
+typedef enum sight { MISSES, HITS_CLEAR_OF_EDGES, OPEN } sight;
+
+static sight sight_of(const seen *s, const double d[3], double size)
 {
-    return s->none || (s->known && (dot(s->edge[0], d) < -s->below[0] * size || dot(s->edge[1], d) < -s->below[1] * size ||
-                                    dot(s->edge[2], d) < -s->below[2] * size));
+    if (s->none)
+        return MISSES;
+    if (!s->known)
+        return OPEN;
+    const double a = dot(s->edge[0], d), b = dot(s->edge[1], d), c = dot(s->edge[2], d);
+    if (a < -s->sure[0] * size || b < -s->sure[1] * size || c < -s->sure[2] * size)
+        return MISSES;
+    return a > s->sure[0] * size && b > s->sure[1] * size && c > s->sure[2] * size ? HITS_CLEAR_OF_EDGES : OPEN;
 }
 
 base_status trial_ray_find(trial_ray *ray, const trial_view *view, const float direction[3], base_error *err)
@@ -235,11 +247,14 @@ base_status trial_ray_find(trial_ray *ray, const trial_view *view, const float d
     const double d[3] = {(double)direction[0], (double)direction[1], (double)direction[2]}, size = length(d);
     base_status status = BASE_OK;
     ray->view = view;
+    memcpy(ray->direction, d, sizeof d);
     ray->count = 0;
     ray->nearest = SIZE_MAX;
-    for (size_t i = 0; status == BASE_OK && i < view->count; i++)
-        if (!passed_over(&view->seen[i], d, size))
-            status = examine(ray, (uint32_t)i, direction, err);
+    for (size_t i = 0; status == BASE_OK && i < view->count; i++) {
+        const sight known = sight_of(&view->seen[i], d, size);
+        if (known != MISSES)
+            status = examine(ray, (uint32_t)i, direction, known == HITS_CLEAR_OF_EDGES, err);
+    }
     return status;
 }
 
@@ -305,14 +320,25 @@ static trial_verdict verdict_on_hit(const trial_ray *ray, const candidate *found
     return same_triangle(&triangles[found->id], &triangles[nearest->id]) ? TRIAL_WRONG : TRIAL_TIE;
 }
 
-static void measure_errors(trial_finding *finding, const candidate *found, const trial_answer *answer)
+/* Length of what the weights' errors move the point by, at right angles to the ray. */
+static double point_off_ray(const scene_triangle *t, double u_error, double v_error, const double d[3])
+{
+    double off[3], across[3];
+    for (int k = 0; k < 3; k++)
+        off[k] = u_error * ((double)t->v[1][k] - (double)t->v[0][k]) + v_error * ((double)t->v[2][k] - (double)t->v[0][k]);
+    cross(off, d, across);
+    return length(across) / length(d);
+}
+
+static void measure_errors(trial_finding *finding, const trial_ray *ray, const candidate *found, const trial_answer *answer)
 {
     int exponent;
     const double error = fabs((double)answer->t - found->hit.t_double);
     frexp(found->hit.t_double, &exponent);
     finding->t_ulp = ldexp(error, FLT_MANT_DIG - (exponent < FLT_MIN_EXP ? FLT_MIN_EXP : exponent));
     finding->plane_ulp = found->slope > 0 ? error / found->slope : 0;
-    finding->weight_error = fmax(fabs((double)answer->u - found->hit.u), fabs((double)answer->v - found->hit.v));
+    finding->point_ulp = point_off_ray(&ray->view->triangles[found->id], (double)answer->u - found->hit.u, (double)answer->v - found->hit.v,
+                                       ray->direction) / found->unit;
 }
 
 trial_finding trial_ray_answer(const trial_ray *ray, const trial_answer *answer)
@@ -330,6 +356,6 @@ trial_finding trial_ray_answer(const trial_ray *ray, const trial_answer *answer)
     }
     finding.verdict = verdict_on_hit(ray, found, answer);
     if (finding.verdict == TRIAL_RIGHT || finding.verdict == TRIAL_TIE)
-        measure_errors(&finding, found, answer);
+        measure_errors(&finding, ray, found, answer);
     return finding;
 }

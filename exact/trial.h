@@ -44,7 +44,7 @@ typedef struct trial_finding {
     bool leak;           /* nothing was found, and something is hit, at its edge or not */
     double t_ulp;        /* error of t in units of its last place; these three: of RIGHT and TIE with a hit, else 0 */
     double plane_ulp;    /* the same error as a distance from the triangle's plane, in the units of TRIAL_PLANE_ULP */
-    double weight_error; /* larger error of u and v */
+    double point_ulp;    /* how far off the ray the point lies that u and v stand for, in the same units */
 } trial_finding;
 
 /* Triangles as seen from one origin. */

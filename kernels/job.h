@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "kernels/accel/bvh.h"
+#include "kernels/accel/kdtree.h"
 #include "kernels/params.h"
 #include "lrbni/base/status.h"
 #include "lrbni/memory.h"
@@ -31,6 +32,8 @@ typedef struct job_light {
     float slack, reach, guard;          /* as in job_constants, for directions of length 1 */
     float share;                        /* of a sample in the visibility */
     float one;
+    uint32_t all_samples, untaken_samples;        /* bits of a set */
+    uint32_t count_shift[4], count_fields[4];     /* for counting bits */
 } job_light;
 
 /* A set of 16 samples of the light, in lanes; 512 bytes. */
@@ -64,6 +67,19 @@ typedef struct job_constants {
     job_light light;
 } job_constants;
 
+/* The root cell of a kd-tree as rays with one origin see it, and their directions: for kernels that traverse one. */
+typedef struct job_cells {
+    float cell[16]; /* min x y z less the origin, 0; minus (max x y z less the origin), minus the largest distance; 0 */
+    float box[16];  /* min x y z less the origin, 0, max x y z less the origin, 0; 0 */
+    float d00[16], dx[16], dy[16]; /* those of job_constants, an axis to each group of four lanes; the last group is 0 */
+    float signs[16]; /* 1, but -1 in words 4 to 7 */
+    float eighth, margin; /* what tells a distance from its rounding, and as a share of it keeps a hit inside a cell (kernels/mlrta/entry_end.h) */
+    float plane_error;   /* of the normals of planes through two corner rays, at most */
+    float alike;         /* cosine of the angle between surfaces that face alike, at least */
+    uint32_t untraced, unblocked; /* occlusion bits of a pixel with no shadow ray, or with one that reaches the light */
+    float pad[10];
+} job_cells;
+
 /* One tile, 64 bytes. */
 typedef struct job_tile {
     float x, y;          /* its first pixel */
@@ -86,7 +102,10 @@ typedef struct kernel_job {
     unsigned tiles_x, tiles_y;
     uint32_t root_link, root_count; /* of the tree's root node */
     uint32_t record_count;          /* 0: nothing to hit */
+    unsigned unit_log2;             /* a unit of work is a square of 2^unit_log2 tiles an edge */
     lrb_segment nodes, records, constants, tiles, frame;
+    lrb_segment lists, cells;       /* of a kd-tree; of cells the second are those of rays from the light */
+    lrb_segment light_constants;    /* constants of rays from the light */
     unsigned sample_passes;         /* sets of samples that a pixel uses one after another; 0: no shadow rays */
     uint32_t sample_mask;           /* samples of a set that are taken */
     lrb_segment samples, normals, shadows; /* these and their host memory: only if there are shadow rays */
@@ -96,7 +115,11 @@ typedef struct kernel_job {
     job_sample_set *samples_host;
     float (*normals_host)[4]; /* unit normals by triangle id, the fourth float 0 */
     job_shadow_tile *shadows_host;
-    const bvh *tree; /* not owned: must outlive the job */
+    job_cells *cells_host; /* two */
+    job_constants *light_constants_host; /* NULL: there are no hard shadows */
+    bvh_triangle *records_host; /* of the tree */
+    const bvh *tree;            /* one of the two; not owned: must outlive the job */
+    const kdtree *kdtree;
 } kernel_job;
 
 /**
@@ -112,25 +135,38 @@ typedef struct kernel_job {
 base_status kernel_job_create(const bvh *tree, const scene_camera *camera, const scene_light *light, unsigned width, unsigned height,
                               const kernel_params *params, kernel_job **out, base_error *err);
 
+/** The same on a kd-tree, whose empty occluders are marked as the camera asks for it (kdtree_mark_occluders). */
+base_status kernel_job_create_kdtree(const kdtree *tree, const scene_camera *camera, const scene_light *light, unsigned width,
+                                     unsigned height, const kernel_params *params, kernel_job **out, base_error *err);
+
 /** Free a job; sets the pointer to NULL. */
 void kernel_job_destroy(kernel_job **job);
 
-/** Number of tiles. */
-static inline uint32_t kernel_job_tiles(const kernel_job *job) { return job->tiles_x * job->tiles_y; }
+/** Number of units of work, what a kernel's tile function is called for: tiles, or squares of them. */
+static inline uint32_t kernel_job_tiles(const kernel_job *job)
+{
+    const unsigned edge = 1u << job->unit_log2;
+    return (job->tiles_x + edge - 1) / edge * ((job->tiles_y + edge - 1) / edge);
+}
 
-/* Where in the frame a pixel's result is. */
+/* Where in the frame a pixel's result is, and which unit of work makes it. */
 typedef struct job_pixel {
     uint32_t tile;
     unsigned block, pixel;
+    uint32_t unit;
+    unsigned region; /* sixteenth of the unit, numbered as blocks of a tile: of a unit of one tile, the block */
 } job_pixel;
 
 /** Place of image pixel (x, y). */
 static inline job_pixel kernel_job_pixel(const kernel_job *job, unsigned x, unsigned y)
 {
+    const unsigned edge = JOB_TILE_PIXELS << job->unit_log2, units_x = (job->width + edge - 1) / edge;
     return (job_pixel){
         .tile = y / JOB_TILE_PIXELS * job->tiles_x + x / JOB_TILE_PIXELS,
         .block = y % 16 / 4 * 4 + x % 16 / 4,
         .pixel = y % 4 * 4 + x % 4,
+        .unit = y / edge * units_x + x / edge,
+        .region = y % edge / (edge / 4) * 4 + x % edge / (edge / 4),
     };
 }
 

@@ -16,11 +16,13 @@ static const float slack_relative = 0x1p-16f, guard_relative = 0x1p-19f;
 /* The samples that are taken of a set if there are to be four: one in each row, column and quarter of the grid. */
 static const uint32_t four_samples = 1u << 4 | 1u << 13 | 1u << 2 | 1u << 11;
 
-static double diagonal_of(const bvh *tree)
+static double diagonal_of(const kernel_job *job)
 {
+    const float *min = job->tree ? job->tree->nodes[0].min : job->kdtree->min;
+    const float *max = job->tree ? job->tree->nodes[0].max : job->kdtree->max;
     double square = 0;
-    for (int axis = 0; axis < 3 && tree->record_count; axis++) {
-        double extent = (double)tree->nodes[0].max[axis] - (double)tree->nodes[0].min[axis];
+    for (int axis = 0; axis < 3 && job->record_count; axis++) {
+        double extent = (double)max[axis] - (double)min[axis];
         square += extent * extent;
     }
     return sqrt(square);
@@ -51,7 +53,7 @@ static void fill_light(kernel_job *job, const scene_light *light)
         l->uv[axis] = l->u[axis] + l->v[axis];
         l->point[axis] = (float)light->point[axis];
     }
-    l->lift = (float)(lift_relative * diagonal_of(job->tree));
+    l->lift = (float)(lift_relative * diagonal_of(job));
     l->nearest = end_relative;
     l->farthest = 1.0f - end_relative;
     l->slack = slack_relative;
@@ -59,6 +61,13 @@ static void fill_light(kernel_job *job, const scene_light *light)
     l->guard = guard_relative;
     l->share = job->params.samples ? 1.0f / (float)job->params.samples : 0.0f;
     l->one = 1.0f;
+    l->all_samples = 0xffff;
+    l->untaken_samples = job->params.samples && job->params.samples < 16 ? 0xffffu & ~four_samples : 0;
+    static const uint32_t fields[4] = {0x5555, 0x3333, 0x0f0f, 0x00ff};
+    for (unsigned step = 0; step < 4; step++) {
+        l->count_shift[step] = 1u << step;
+        l->count_fields[step] = fields[step];
+    }
 }
 
 static void fill_samples(kernel_job *job, const light_samples *sets, unsigned count)
@@ -79,8 +88,8 @@ static void fill_samples(kernel_job *job, const light_samples *sets, unsigned co
 
 static void fill_normals(kernel_job *job)
 {
-    for (size_t i = 0; i < job->tree->record_count; i++) {
-        const bvh_triangle *t = &job->tree->records[i];
+    for (size_t i = 0; i < job->record_count; i++) {
+        const bvh_triangle *t = &job->records_host[i];
         double square = 0;
         for (int axis = 0; axis < 3; axis++)
             square += (double)t->normal[axis] * (double)t->normal[axis];
@@ -90,12 +99,34 @@ static void fill_normals(kernel_job *job)
 }
 
 /* Triangle ids are below it. */
-static size_t id_limit(const bvh *tree)
+static size_t id_limit(const kernel_job *job)
 {
     size_t limit = 1;
-    for (size_t i = 0; i < tree->record_count; i++)
-        limit = tree->records[i].id >= limit ? (size_t)tree->records[i].id + 1 : limit;
+    for (size_t i = 0; i < job->record_count; i++)
+        limit = job->records_host[i].id >= limit ? (size_t)job->records_host[i].id + 1 : limit;
     return limit;
+}
+
+/* Normals and shadows: what hard shadows need as well. */
+static bool create_frame(kernel_job *job)
+{
+    const size_t normals = id_limit(job), bytes = (normals * sizeof *job->normals_host + 63) / 64 * 64;
+    job->normals.size = bytes;
+    job->shadows.size = (size_t)job->tiles_x * job->tiles_y * sizeof *job->shadows_host;
+    job->normals_host = aligned_alloc(64, job->normals.size);
+    job->shadows_host = aligned_alloc(64, job->shadows.size);
+    if (!job->normals_host || !job->shadows_host)
+        return false;
+    memset(job->normals_host, 0, bytes);
+    fill_normals(job);
+    return true;
+}
+
+static base_status create_hard(kernel_job *job, base_error *err)
+{
+    if (create_frame(job))
+        return BASE_OK;
+    return base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for the shadows of %ux%u pixels", job->width, job->height);
 }
 
 base_status job_shadow_create(kernel_job *job, const scene_light *light, base_error *err)
@@ -104,26 +135,19 @@ base_status job_shadow_create(kernel_job *job, const scene_light *light, base_er
     if (light)
         fill_light(job, light);
     if (samples == 0)
-        return BASE_OK;
+        return job->params.hard_shadows ? create_hard(job, err) : BASE_OK;
     base_status status = kernel_params_check_samples(samples, err);
     if (status != BASE_OK)
         return status;
     const unsigned sets = samples > 256 ? samples / 16 : 16;
-    const size_t normals = id_limit(job->tree), normal_bytes = (normals * sizeof *job->normals_host + 63) / 64 * 64;
     light_samples *points = calloc(sets, sizeof *points);
     job->sample_passes = samples > 16 ? samples / 16 : 1;
     job->sample_mask = samples < 16 ? four_samples : 0xffffu;
     job->samples.size = sets * sizeof *job->samples_host;
-    job->normals.size = normal_bytes;
-    job->shadows.size = kernel_job_tiles(job) * sizeof *job->shadows_host;
     job->samples_host = aligned_alloc(64, job->samples.size);
-    job->normals_host = aligned_alloc(64, job->normals.size);
-    job->shadows_host = aligned_alloc(64, job->shadows.size);
-    if (points && job->samples_host && job->normals_host && job->shadows_host) {
+    if (create_frame(job) && points && job->samples_host) {
         light_samples_fill(job->params.net, job->params.assignment, sets, points);
         fill_samples(job, points, sets);
-        memset(job->normals_host, 0, normal_bytes);
-        fill_normals(job);
     } else {
         status = base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for the shadows of %ux%u pixels", job->width, job->height);
     }

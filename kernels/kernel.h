@@ -16,11 +16,15 @@
 /* Trace one tile: its pixels go to the job's frame, its counts are added to *n, its ops to the context. */
 typedef void kernel_tile_fn(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n);
 
+/* What a kernel traverses. */
+typedef enum kernel_accel { KERNEL_ACCEL_BVH, KERNEL_ACCEL_KDTREE } kernel_accel;
+
 typedef struct kernel_info {
     const char *name;
     const char *summary;       /* a line for `lanetrace kernels` */
     const char *paper;         /* section that it follows */
     kernel_params defaults;
+    kernel_accel accel;
     uint64_t counters;         /* bit i: counter i is reported */
     uint64_t params;           /* bit i: kernel_param i is taken */
     uint64_t phases;           /* bit i: kernel_phase i is part of it */
@@ -41,6 +45,7 @@ typedef enum kernel_phase {
     KERNEL_PHASE_CULLING,      /* triangles against frusta, back faces */
     KERNEL_PHASE_INTERSECTION, /* triangles against rays, hit records */
     KERNEL_PHASE_SHADING,      /* hit points, what light they could see and how much of it they do */
+    KERNEL_PHASE_ENTRY,        /* entry-point search for a tile */
     KERNEL_PHASE_COUNT
 } kernel_phase;
 
@@ -49,8 +54,11 @@ extern const char *const kernel_phase_names[KERNEL_PHASE_COUNT];
 
 /* Numbers of the source files, for branches and lines in events (LRB_SOURCE; kernels/sources.h has the files). */
 enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, KERNEL_SOURCE_CORNER_CULL, KERNEL_SOURCE_PACKET16, KERNEL_SOURCE_MFT,
-       KERNEL_SOURCE_RAYS, KERNEL_SOURCE_PACKET16_PRIMARY, KERNEL_SOURCE_MFT_PRIMARY, KERNEL_SOURCE_SHADOW, KERNEL_SOURCE_PACKET16_SOFT,
-       KERNEL_SOURCE_LANE_CULL, KERNEL_SOURCE_MFT_SHRINK, KERNEL_SOURCE_MFT_SOFT };
+       KERNEL_SOURCE_RAYS, KERNEL_SOURCE_SHADOW, KERNEL_SOURCE_PACKET16_SOFT,
+       KERNEL_SOURCE_LANE_CULL, KERNEL_SOURCE_MFT_SHRINK, KERNEL_SOURCE_MFT_SOFT,
+       KERNEL_SOURCE_KD16, KERNEL_SOURCE_KD16_TILE, KERNEL_SOURCE_KD16_PRIMARY, KERNEL_SOURCE_TILE_BOUNDS, KERNEL_SOURCE_ENTRY_SEARCH,
+       KERNEL_SOURCE_ENTRY_END, KERNEL_SOURCE_ENTRY_CULL, KERNEL_SOURCE_MLRTA_PRIMARY, KERNEL_SOURCE_HARD_SHADOW,
+       KERNEL_SOURCE_KD16_SHADOW, KERNEL_SOURCE_HIT_BOUNDS, KERNEL_SOURCE_MLRTA_SHADOW };
 
 /* The name of a tile function at the level that is being compiled: mft_primary_count. */
 #if defined(LRB_LEVEL) && LRB_LEVEL == 0

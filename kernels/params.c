@@ -8,6 +8,13 @@
 static const char *const net_names[] = {"hammersley", "larcher-pillichshammer"};
 static const char *const assignment_names[] = {"permuted", "rank", "bits"};
 static const char *const shrink_names[] = {"none", "corner-rays", "frusta", "ray-aabb"};
+static const char *const its_names[] = {"16", "32", "64", "128", "256"};
+static const char *const sf_names[] = {"4", "16"};
+static const char *const mts_names[] = {"4", "8", "16", "32", "64", "128", "256"};
+static const char *const culling_names[] = {"inverse", "direct", "corner-rays"};
+static const char *const divergent_names[] = {"split", "xp"};
+static const char *const packets_names[] = {"octants", "rays"};
+static const char *const shadow_packets_names[] = {"whole", "normal", "triangle"};
 
 static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
     [KERNEL_PARAM_CULL_BACKFACE] = {"cull_backface", 0, 1, "1: triangles are hit from their front side only", offsetof(kernel_params, cull_backface), NULL},
@@ -17,6 +24,20 @@ static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
     [KERNEL_PARAM_ASSIGNMENT] = {"assignment", 0, 2, "how the points are dealt out to the sets", offsetof(kernel_params, assignment), assignment_names},
     [KERNEL_PARAM_INTERLEAVED] = {"interleaved", 0, 1, "1: the 16 pixels of a 4x4 pattern use different sets", offsetof(kernel_params, interleaved), NULL},
     [KERNEL_PARAM_SHRINK] = {"shrink", 0, 3, "what is made smaller when some rays of a shadow frustum are blocked", offsetof(kernel_params, shrink), shrink_names},
+    [KERNEL_PARAM_EMPTY_PERCENT] = {"empty_percent", 1, 100, "empty space of more than so much of a cell's length is cut off; 100: none", offsetof(kernel_params, empty_percent), NULL},
+    [KERNEL_PARAM_COVERED_PLANES] = {"covered_planes", 0, 1, "1: cells are cut at planes that triangles cover", offsetof(kernel_params, covered_planes), NULL},
+    [KERNEL_PARAM_MIN_AREA] = {"min_area", 0, 1000000000, "smallest surface of a cell made by cost, in billionths of the scene's", offsetof(kernel_params, min_area), NULL},
+    [KERNEL_PARAM_PERFECT_SPLITS] = {"perfect_splits", 0, 1, "1: triangles are clipped to their cells, 0: only their boxes", offsetof(kernel_params, perfect_splits), NULL},
+    [KERNEL_PARAM_EMPTY_OCCLUDERS] = {"empty_occluders", 0, 1, "1: empty cells inside closed objects are found and end a search", offsetof(kernel_params, empty_occluders), NULL},
+    [KERNEL_PARAM_MAILBOX] = {"mailbox", 0, 1, "1: a packet remembers the triangles that it has tested", offsetof(kernel_params, mailbox), NULL},
+    [KERNEL_PARAM_ITS] = {"its", 0, 4, "edge of the initial tile, in pixels", offsetof(kernel_params, its), its_names},
+    [KERNEL_PARAM_SF] = {"sf", 0, 1, "parts that a tile is split into", offsetof(kernel_params, sf), sf_names},
+    [KERNEL_PARAM_MTS] = {"mts", 0, 6, "a tile of this edge or less is not split", offsetof(kernel_params, mts), mts_names},
+    [KERNEL_PARAM_CULLING] = {"culling", 0, 2, "how cells are tested against a tile's rays; corner-rays is unsound", offsetof(kernel_params, culling), culling_names},
+    [KERNEL_PARAM_DIVERGENT] = {"divergent", 0, 1, "tiles whose rays differ in sign are split on, or traced at once", offsetof(kernel_params, divergent), divergent_names},
+    [KERNEL_PARAM_DIVERGENT_PACKETS] = {"divergent_packets", 0, 1, "packets whose rays differ in sign are traced by octants, or ray by ray", offsetof(kernel_params, divergent_packets), packets_names},
+    [KERNEL_PARAM_ENDS] = {"ends", 0, 1, "1: a triangle that all rays of a tile hit ends its search", offsetof(kernel_params, ends), NULL},
+    [KERNEL_PARAM_SHADOW_PACKETS] = {"shadow_packets", 0, 2, "shadow rays of a block that go together: all, of surfaces that face alike, of one triangle", offsetof(kernel_params, shadow_packets), shadow_packets_names},
 };
 
 const kernel_param_info *kernel_param_list(size_t *count)
@@ -58,7 +79,7 @@ static base_status set_number(const kernel_param_info *info, unsigned *field, co
 
 base_status kernel_params_set(kernel_params *params, uint64_t takes, const char *assignment, base_error *err)
 {
-    char names[160] = "";
+    char names[256] = "";
     size_t length = strcspn(assignment, "=");
     if (assignment[length] != '=')
         return base_fail(err, BASE_ERR_USAGE, "--param", "'%s' is not KEY=VALUE", assignment);

@@ -14,6 +14,14 @@ typedef enum kernel_assignment { KERNEL_ASSIGN_PERMUTED, KERNEL_ASSIGN_RANK, KER
 /* How frusta of shadow rays shrink when some of their rays are blocked (Benthin and Wald 2009, 5.3). */
 typedef enum kernel_shrink { KERNEL_SHRINK_NONE, KERNEL_SHRINK_CORNERS, KERNEL_SHRINK_FRUSTA, KERNEL_SHRINK_RAYS } kernel_shrink;
 
+/* How multi-level ray tracing culls cells, what it does with tiles whose rays differ in sign, and with such packets
+   (docs/kernels-mlrta.md). */
+typedef enum kernel_culling { KERNEL_CULL_INVERSE, KERNEL_CULL_DIRECT, KERNEL_CULL_CORNER_RAYS } kernel_culling;
+typedef enum kernel_divergent { KERNEL_DIVERGENT_SPLIT, KERNEL_DIVERGENT_XP } kernel_divergent;
+typedef enum kernel_packets { KERNEL_PACKETS_OCTANTS, KERNEL_PACKETS_RAYS } kernel_packets;
+/* Which shadow rays of a block are traced together: all, those from surfaces that face alike, or those from one triangle. */
+typedef enum kernel_shadow_packets { KERNEL_SHADOW_WHOLE, KERNEL_SHADOW_NORMAL, KERNEL_SHADOW_TRIANGLE } kernel_shadow_packets;
+
 typedef struct kernel_params {
     unsigned cull_backface; /* 1: triangles are hit from their front only */
     unsigned max_leaf;      /* triangles in a leaf of the BVH, at most */
@@ -22,6 +30,16 @@ typedef struct kernel_params {
     unsigned assignment;    /* kernel_assignment */
     unsigned interleaved;   /* 1: neighbouring pixels use different sets */
     unsigned shrink;        /* kernel_shrink */
+    unsigned empty_percent, covered_planes, min_area, perfect_splits, empty_occluders; /* of the kd-tree (kernels/accel/kdtree.h) */
+    unsigned mailbox;       /* 1: a packet remembers which triangles it has tested */
+    unsigned its, mts;      /* edge of the initial tile, 16 << its pixels; tiles of 4 << mts pixels or fewer are not split */
+    unsigned sf;            /* a tile is split into 4 << 2 sf */
+    unsigned culling;       /* kernel_culling */
+    unsigned divergent;     /* kernel_divergent */
+    unsigned divergent_packets; /* kernel_packets */
+    unsigned shadow_packets; /* kernel_shadow_packets */
+    unsigned hard_shadows;  /* no parameter: 1: the kernel traces a ray to the light's point from each hit */
+    unsigned ends;          /* 1: a triangle that all rays of a tile hit ends the search for its entry point */
     unsigned samples;       /* option --samples: shadow rays a pixel; 0: the kernel traces none */
     double light_scale;     /* option --light-scale: of the light's edges, about its centre */
 } kernel_params;
@@ -35,6 +53,20 @@ typedef enum kernel_param {
     KERNEL_PARAM_ASSIGNMENT,
     KERNEL_PARAM_INTERLEAVED,
     KERNEL_PARAM_SHRINK,
+    KERNEL_PARAM_EMPTY_PERCENT,
+    KERNEL_PARAM_COVERED_PLANES,
+    KERNEL_PARAM_MIN_AREA,
+    KERNEL_PARAM_PERFECT_SPLITS,
+    KERNEL_PARAM_EMPTY_OCCLUDERS,
+    KERNEL_PARAM_MAILBOX,
+    KERNEL_PARAM_ITS,
+    KERNEL_PARAM_SF,
+    KERNEL_PARAM_MTS,
+    KERNEL_PARAM_CULLING,
+    KERNEL_PARAM_DIVERGENT,
+    KERNEL_PARAM_DIVERGENT_PACKETS,
+    KERNEL_PARAM_ENDS,
+    KERNEL_PARAM_SHADOW_PACKETS,
     KERNEL_PARAM_COUNT
 } kernel_param;
 

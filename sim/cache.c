@@ -1,8 +1,8 @@
 #include "sim/cache.h"
 
+#include <assert.h>
 #include <stdlib.h>
-
-#define NO_LINE UINT64_MAX
+#include <string.h>
 
 base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_bytes, sim_cache **out, base_error *err)
 {
@@ -12,9 +12,9 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
     size_t places = size_bytes / line_bytes;
     sim_cache *cache = calloc(1, sizeof *cache);
     if (cache)
-        cache->lines = malloc(places * sizeof *cache->lines);
+        cache->lines = malloc((places + 1) * sizeof *cache->lines);
     if (cache)
-        cache->used = calloc(places, sizeof *cache->used);
+        cache->used = calloc(places + 1, sizeof *cache->used);
     if (!cache || !cache->lines || !cache->used) {
         sim_cache_destroy(&cache);
         return base_fail(err, BASE_ERR_NOMEM, "cache", "out of memory");
@@ -22,8 +22,8 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
     cache->ways = ways;
     cache->line_bits = (unsigned)__builtin_ctz(line_bytes);
     cache->sets = places / ways;
-    for (size_t i = 0; i < places; i++)
-        cache->lines[i] = NO_LINE;
+    for (size_t i = 0; i <= places; i++)
+        cache->lines[i] = SIM_NO_LINE;
     *out = cache;
     return BASE_OK;
 }
@@ -36,6 +36,14 @@ void sim_cache_destroy(sim_cache **cache)
     }
     free(*cache);
     *cache = NULL;
+}
+
+void sim_cache_assign(sim_cache *to, const sim_cache *from)
+{
+    assert(to->ways == from->ways && to->sets == from->sets && to->line_bits == from->line_bits);
+    memcpy(to->lines, from->lines, from->sets * from->ways * sizeof *from->lines);
+    memcpy(to->used, from->used, from->sets * from->ways * sizeof *from->used);
+    to->uses = from->uses;
 }
 
 /* A free place, or else the one that was not used for longest. */
@@ -54,6 +62,6 @@ void sim_cache_evict(sim_cache *cache, uint64_t line)
     const uint64_t place = sim_cache_place(cache, line);
     if (place == UINT64_MAX)
         return;
-    cache->lines[place] = NO_LINE;
+    cache->lines[place] = SIM_NO_LINE;
     cache->used[place] = 0;
 }

@@ -14,11 +14,13 @@
 extern "C" {
 #endif
 
-/* Opaque but to the inline functions below. */
+#define SIM_NO_LINE UINT64_MAX
+
+/* Opaque but to the inline functions below and to sim/hierarchy.h. */
 typedef struct sim_cache {
     unsigned ways, line_bits;
     uint64_t sets;  /* a power of two */
-    uint64_t *lines; /* sets x ways; UINT64_MAX: a free place */
+    uint64_t *lines; /* sets x ways, and one more that is always free; SIM_NO_LINE: a free place */
     uint64_t *used;  /* by place: when it was used last; free places, never: 0 */
     uint64_t uses;
 } sim_cache;
@@ -41,6 +43,9 @@ base_status sim_cache_create(unsigned size_bytes, unsigned ways, unsigned line_b
 
 /** Free a cache, which may be NULL, and set the pointer to NULL. */
 void sim_cache_destroy(sim_cache **cache);
+
+/** Make a cache hold what another one of the same size, ways and lines holds. */
+void sim_cache_assign(sim_cache *to, const sim_cache *from);
 
 /** Number of the line that holds an address. */
 static inline uint64_t sim_cache_line(const sim_cache *cache, uint64_t address) { return address >> cache->line_bits; }

@@ -23,22 +23,22 @@ static base_status next_tile(sim_core *s, core_thread *h, const sim_core_feed *f
             s->working--;
             return BASE_OK;
         }
-        if (core_begin_tile(s, h, events, count)) {
-            h->price = h->op->price;
+        if (core_begin_tile(s, h, events, count))
             return BASE_OK;
-        }
         end_tile(s, h, feed);
     }
 }
 
-/* Results older than the window, of ops that waited for their lines. */
-static void need_late(const sim_core *s, const core_thread *h, const sim_op_price *p, const lrb_event *e, sim_blamed *at)
+/* Results of ops that waited for their lines. */
+static __attribute__((noinline)) void need_late(const sim_core *s, const core_thread *h, sim_blamed *at)
 {
+    const lrb_event *e = h->op->event;
+    const sim_op_price *p = core_price_of(s, h);
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++) {
-        uint32_t distance = e->src[i], number = h->next - distance;
+        const uint32_t distance = e->src[i], number = h->next - distance;
         const core_late_result *late = &h->late[number & (s->late_window - 1)];
-        if (distance >= s->window && distance <= h->next - h->tile_first && late->number == number)
-            sim_need(late->result.ready[p->consumer[i]], at);
+        if (distance > 0 && distance <= h->next - h->tile_first && late->number == number && late->arrival > 0)
+            sim_need(sim_blame(late->arrival + sim_time_of(late->price->latency.ready[p->consumer[i]]), late->bucket), at);
     }
 }
 
@@ -53,20 +53,19 @@ static inline sim_blamed later(sim_blamed a, sim_blamed b) { return a > b ? a : 
 
 /* When the thread's next op can issue, as far as its operands, its class and what blocks the thread are concerned. Which thread
  * issues next varies so much that the host cannot foresee what its op waits for: so sources are compared without branches. */
-static inline sim_blamed earliest(const sim_core *s, core_thread *h)
+static inline sim_blamed earliest(const sim_core *s, const core_thread *h)
 {
     const core_op *op = h->op;
-    const sim_op_price *p = h->price = op->price;
-    const sim_blamed *ready = h->results->ready;
-    const sim_blamed first = later(keep_scalar(ready[op->source[0]]), keep_scalar(ready[op->source[1]]));
-    const sim_blamed second = later(keep_scalar(ready[op->source[2]]), keep_scalar(ready[op->source[3]]));
-    sim_blamed at = later(later(first, second), h->start);
-    if (h->late_until > sim_time_of(at))
-        need_late(s, h, p, op->event, &at);
-    if (h->stores_until > at && p->flags & SIM_PRICE_READS)
-        sim_need_stored(h->stores, p, op->event, &at);
-    if (p->flags & SIM_PRICE_LASTING)
-        sim_need(s->class_free[p->class_id], &at);
+    sim_blamed ready[SIM_MAX_SOURCES];
+    for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)
+        ready[i] = keep_scalar(h->issued[op->source[i]]) + s->latency[op->latencies >> 8 * i & 0xff];
+    sim_blamed at = later(later(later(ready[0], ready[1]), later(ready[2], ready[3])), h->start);
+    if (h->late_until > sim_time_of(h->now))
+        need_late(s, h, &at);
+    if (op->flags & SIM_PRICE_READS && h->stores_until > h->now)
+        sim_need_stored(h->stores, core_price_of(s, h), op->event, &at);
+    if (op->flags & SIM_PRICE_LASTING)
+        sim_need(s->class_free[core_price_of(s, h)->class_id], &at);
     return at;
 }
 
@@ -78,7 +77,7 @@ static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_
     const lrb_event *e = h->op->event;
     if (core_moves_nothing(e))
         return 0;
-    if (h->price->flags & ACCESS) {
+    if (h->op->flags & ACCESS) {
         uint64_t free_at = h->misses.free_at;
         const bool held = free_at > now && sim_hierarchy_would_miss(s->memory, core_line_of(s, h, e), now);
         return held ? sim_blame(free_at, SIM_BUCKET_MISSES) : 0;
@@ -95,73 +94,65 @@ static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_
 static inline bool may_be_held(const sim_core *s, const core_thread *h, uint64_t now)
 {
     return (h->misses.free_at > now || s->prefetches.free_at > now) &&
-           h->price->flags & (ACCESS | SIM_PRICE_HINT);
+           h->op->flags & (ACCESS | SIM_PRICE_HINT);
 }
 
-static inline void access_memory(sim_core *s, core_thread *h, const sim_op_price *p, const lrb_event *e)
+/* The line is not simply there. */
+static __attribute__((noinline)) void access_memory(sim_core *s, core_thread *h, const core_op *op)
 {
-    if (core_moves_nothing(e))
-        return;
-    sim_fetch fetch = sim_hierarchy_access(s->memory, core_line_of(s, h, e), s->now);
+    const sim_fetch fetch = sim_hierarchy_access(s->memory, op->line, s->now);
     if (fetch.asked)
         sim_slots_take(&h->misses, fetch.arrival);
-    if (fetch.arrival > s->now && p->flags & SIM_PRICE_READS)
-        core_delay_result(s, h, p, fetch);
-    if (p->flags & SIM_PRICE_STORE) {
-        const sim_store_line *line = &h->stores[e->aux / 64 % SIM_STORE_LINES];
-        sim_remember_store(h->stores, p, e, h->now);
-        h->stores_until = line->ready > h->stores_until ? line->ready : h->stores_until;
-    }
+    if (fetch.arrival > s->now && op->flags & SIM_PRICE_READS)
+        core_delay_result(s, h, core_price_of(s, h), fetch);
+}
+
+static void remember_store(const sim_core *s, core_thread *h, const core_op *op)
+{
+    const sim_store_line *line = &h->stores[op->event->aux / 64 % SIM_STORE_LINES];
+    if (op->line == SIM_NO_LINE)
+        return;
+    sim_remember_store(h->stores, core_price_of(s, h), op->event, h->now);
+    h->stores_until = line->ready > h->stores_until ? line->ready : h->stores_until;
 }
 
 /* The thread's next op issues in this cycle. */
 static inline void perform(sim_core *s, core_thread *h, const bool joined)
 {
-    const sim_op_price *p = h->price;
-    const lrb_event *e = h->op->event;
+    const core_op *op = h->op;
+    const unsigned flags = op->flags;
     h->start = sim_end_of_cycle(h->now);
-    h->partners = p->partners;
-    sim_put_result(&h->results[h->next & (s->window - 1)], &p->latency, h->now);
-    if (p->flags & ACCESS)
-        access_memory(s, h, p, e);
-    if (p->flags & (SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT | SIM_PRICE_TOLD)) {
-        if (p->flags & SIM_PRICE_LASTING)
-            core_outlast(s, h, p);
-        if (p->flags & SIM_PRICE_BRANCH)
-            core_take_branch(s, h, e);
-        if (p->flags & SIM_PRICE_HINT)
-            core_take_hint(s, h, e);
-        if (p->flags & SIM_PRICE_TOLD)
-            core_tell_op(s, h, e, joined);
+    h->issued[h->next & (s->window - 1)] = h->now;
+    if (!sim_hierarchy_hits(s->memory, op->line, op->slot))
+        access_memory(s, h, op);
+    if (flags & (SIM_PRICE_STORE | SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT | SIM_PRICE_TOLD)) {
+        if (flags & SIM_PRICE_STORE)
+            remember_store(s, h, op);
+        if (flags & SIM_PRICE_LASTING)
+            core_outlast(s, h, core_price_of(s, h));
+        if (flags & SIM_PRICE_BRANCH)
+            core_take_branch(s, h, op->event);
+        if (flags & SIM_PRICE_HINT)
+            core_take_hint(s, h, op->event);
+        if (flags & SIM_PRICE_TOLD)
+            core_tell_op(s, h, op->event, joined);
     }
     h->next++;
     h->op++;
 }
 
-/* May two ops access memory in the same cycle? */
-static bool share_memory(sim_core *s, const core_thread *h, const lrb_event *first, const lrb_event *e)
-{
-    const sim_op_price *p = &s->price[first->op], *q = &s->price[e->op];
-    const unsigned banks = s->machine->l1.banks;
-    if (!(p->flags & ACCESS) || !(q->flags & ACCESS))
-        return true;
-    const unsigned loaded = (p->flags & SIM_PRICE_READS ? p->bytes : 0) + (q->flags & SIM_PRICE_READS ? q->bytes : 0);
-    const unsigned stored = (p->flags & SIM_PRICE_STORE ? p->bytes : 0) + (q->flags & SIM_PRICE_STORE ? q->bytes : 0);
-    const bool conflict = banks && core_line_of(s, h, first) % banks == core_line_of(s, h, e) % banks;
-    if (!conflict && loaded <= s->machine->l1.load_bytes_per_cycle && stored <= s->machine->l1.store_bytes_per_cycle)
-        return true;
-    s->stats.bank_conflicts++;
-    return false;
-}
-
 /* May the next op, which can issue at `at`, join the one that has just issued? */
-static inline bool joins(sim_core *s, const core_thread *h, const lrb_event *first, sim_blamed at)
+static inline bool joins(sim_core *s, const core_thread *h, sim_blamed at)
 {
-    const unsigned partner = h->partners >> h->price->class_id & 1;
-    if (!(partner & (unsigned)(at == h->start)))
+    if (h->op->join == CORE_APART)
         return false;
-    return !(h->price->flags & (ACCESS | SIM_PRICE_HINT)) ||
-           (!held_by_lines(s, h, s->now) && share_memory(s, h, first, h->op->event));
+    __asm__(""); /* two branches: the first is known long before the second */
+    if (at != sim_end_of_cycle(h->now))
+        return false;
+    if (h->op->flags & (ACCESS | SIM_PRICE_HINT) && held_by_lines(s, h, s->now))
+        return false;
+    s->stats.bank_conflicts += h->op->join == CORE_CONFLICTS;
+    return h->op->join == CORE_JOINS;
 }
 
 /* The cycles since the thread issued last, and those since the core did, go to their buckets, but for the gaps and the turns of
@@ -170,13 +161,15 @@ static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycl
 {
     const uint64_t ready_at = s->turn[t] / CORE_TURN, gap_end = sim_time_of(h->now) + s->gap;
     const unsigned bucket = s->why[t], id = h->op->event->op & (CORE_OPS - 1);
-    const uint64_t idle_from = gap_end > s->now + 1 ? gap_end : s->now + 1;
     s->thread_waited[bucket] += ready_at - h->waits_from;
-    s->core_waited[bucket] += cycle - idle_from;
-    s->op_cycles[id] += cycle - s->now;
-    if (s->profile) {
-        sim_profile_wait(s->profile, &h->at, id, SIM_BUCKET_NONE, idle_from - s->now - 1);
-        sim_profile_wait(s->profile, &h->at, id, bucket, cycle - idle_from);
+    if (cycle > s->now + 1) {
+        const uint64_t idle_from = gap_end > s->now + 1 ? gap_end : s->now + 1;
+        s->core_waited[bucket] += cycle - idle_from;
+        s->op_waited[id] += cycle - s->now - 1;
+        if (s->profile) {
+            sim_profile_wait(s->profile, &h->at, id, SIM_BUCKET_NONE, idle_from - s->now - 1);
+            sim_profile_wait(s->profile, &h->at, id, bucket, cycle - idle_from);
+        }
     }
     h->cycles += cycle - s->now;
     s->now = cycle;
@@ -186,26 +179,24 @@ static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycl
 /* Issue an op, and perhaps the one after it, in this cycle. Gives when the next one can issue; 0: the tile has none left. */
 static inline sim_blamed issue(sim_core *s, core_thread *h)
 {
-    const lrb_event *first = h->op->event;
     perform(s, h, false);
     if (!core_find_op(s, h))
         return 0;
     sim_blamed at = earliest(s, h);
-    if (joins(s, h, first, at)) {
+    if (joins(s, h, at)) {
         s->joins[h->op->event->op & (CORE_OPS - 1)]++;
         perform(s, h, true);
-        h->partners = 0;
         at = core_find_op(s, h) ? earliest(s, h) : 0;
     }
     return at;
 }
 
 /* The first turn of the threads after thread t, the one that issued last; with the place in the order of choice added. */
-static inline uint64_t first_turn(const sim_core *s, unsigned t, uint64_t soonest)
+static inline uint64_t first_turn(const sim_core *s, unsigned threads, unsigned t, uint64_t soonest)
 {
     const uint64_t *turn = s->turn + t;
     uint64_t first = UINT64_MAX;
-    for (unsigned i = 1; i < s->threads; i++) {
+    for (unsigned i = 1; i < threads; i++) {
         uint64_t mine = keep_scalar(turn[i]);
         mine = (mine > soonest ? mine : soonest) + i;
         first = mine < first ? mine : first;
@@ -253,27 +244,30 @@ static void end_run(sim_core *s)
         s->stats.threads.no_work += s->now - (s->thread[t].works ? sim_time_of(s->thread[t].now) : s->began);
 }
 
-/* The thread whose turn it is, t, and the cycle: from the turn and place that first_turn found after thread `last`. */
-static inline unsigned thread_of(const sim_core *s, unsigned last, uint64_t turn)
+/* The thread whose turn it is: from the turn and place that first_turn found after thread `last`. */
+static inline unsigned thread_of(unsigned threads, unsigned last, uint64_t turn)
 {
     const unsigned t = last + (unsigned)(turn & (CORE_TURN - 1));
-    return t >= s->threads ? t - s->threads : t;
+    return t >= threads ? t - threads : t;
 }
 
 /* The first turn of all threads, that of thread t, which issued last, with the last place. */
 static uint64_t any_turn(const sim_core *s, unsigned t)
 {
-    const uint64_t soonest = (s->now + 1) * CORE_TURN, others = first_turn(s, t, soonest);
+    const uint64_t soonest = (s->now + 1) * CORE_TURN, others = first_turn(s, s->threads, t, soonest);
     const uint64_t own = (s->turn[t] > soonest ? s->turn[t] : soonest) + s->threads;
     return own < others ? own : others;
 }
 
-base_status sim_core_run(sim_core *s, const sim_core_feed *feed, base_error *err)
+/* The loop: a turn of a thread after the other. Twice in the program, so that four threads, which all machines have, are told apart
+ * by the compiler. */
+static inline __attribute__((always_inline)) base_status take_turns(sim_core *s, const unsigned threads, const sim_core_feed *feed,
+                                                                    base_error *err)
 {
-    base_status status = begin_run(s, feed, err);
+    base_status status = BASE_OK;
     uint64_t turn = any_turn(s, s->last);
     while (status == BASE_OK && s->working) {
-        const unsigned t = thread_of(s, s->last, turn);
+        const unsigned t = thread_of(threads, s->last, turn);
         const uint64_t cycle = turn / CORE_TURN;
         core_thread *h = &s->thread[t];
         if (may_be_held(s, h, cycle)) {
@@ -299,9 +293,20 @@ base_status sim_core_run(sim_core *s, const sim_core_feed *feed, base_error *err
         const sim_blamed gap_end = sim_blame(cycle + s->gap, SIM_BUCKET_NONE);
         at = at > gap_end ? at : gap_end;
         core_set_turn(s, t, at);
-        const uint64_t others = first_turn(s, t, (cycle + 1) * CORE_TURN), own = sim_without_bucket(at) + s->threads;
-        turn = own < others ? own : others;
+        turn = first_turn(s, threads, t, (cycle + 1) * CORE_TURN);
+        if (turn > (cycle + s->gap) * CORE_TURN) {
+            const uint64_t own = sim_without_bucket(at) + threads;
+            turn = own < turn ? own : turn;
+        }
     }
+    return status;
+}
+
+base_status sim_core_run(sim_core *s, const sim_core_feed *feed, base_error *err)
+{
+    base_status status = begin_run(s, feed, err);
+    if (status == BASE_OK)
+        status = s->threads == 4 ? take_turns(s, 4, feed, err) : take_turns(s, s->threads, feed, err);
     if (status == BASE_OK)
         end_run(s);
     return status;

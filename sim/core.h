@@ -21,6 +21,7 @@
 #include "sim/machine.h"
 #include "sim/observer.h"
 #include "sim/profile.h"
+#include "sim/warm.h"
 
 /* All members are plain sums, so that the stats of cores add up. */
 typedef struct sim_core_stats {
@@ -75,6 +76,9 @@ void sim_core_observe(sim_core *core, sim_observer *observer, void *user);
  * Errors: those of feed->next; the core is then of no further use.
  */
 base_status sim_core_run(sim_core *core, const sim_core_feed *feed, base_error *err);
+
+/** Make the core's caches hold what these hold, between runs; the contents are of its machine. */
+void sim_core_fill(sim_core *core, const sim_contents *contents);
 
 /** The sums over all runs. */
 sim_core_stats sim_core_get(const sim_core *core);

@@ -29,10 +29,19 @@ static bool slots_create(sim_slots *slots, unsigned count)
 static bool thread_create(sim_core *s, unsigned t)
 {
     core_thread *h = &s->thread[t];
-    h->results = calloc(s->window + 1, sizeof *h->results);
+    h->issued = calloc(s->window + 1, sizeof *h->issued);
+    h->producer = malloc(s->window + 1);
     h->late = calloc(s->late_window, sizeof *h->late);
     h->scratch = t * LRB_SCRATCH_BYTES;
-    return slots_create(&h->misses, s->machine->memory.demand_misses_per_thread) && h->results && h->late;
+    return slots_create(&h->misses, s->machine->memory.demand_misses_per_thread) && h->issued && h->producer && h->late;
+}
+
+/* By class; the price of any of its ops has them. */
+static void fill_latencies(sim_core *s)
+{
+    for (int id = 0; id < LRB_OP_COUNT; id++)
+        for (int kind = 0; kind < SIM_CONSUMERS; kind++)
+            s->latency[s->price[id].class_id * SIM_CONSUMERS + kind] = s->price[id].latency.ready[kind];
 }
 
 static bool create_parts(sim_core *s)
@@ -51,6 +60,7 @@ static bool create_parts(sim_core *s)
     s->thread = calloc(s->threads, sizeof *s->thread);
     if (!s->price || !s->turn || !s->why || !s->thread || !slots_create(&s->prefetches, machine->memory.prefetches_per_core))
         return false;
+    fill_latencies(s);
     for (unsigned t = 0; t < s->threads; t++)
         if (!thread_create(s, t))
             return false;
@@ -79,7 +89,8 @@ void sim_core_destroy(sim_core **core)
 {
     sim_core *s = *core;
     for (unsigned t = 0; s && s->thread && t < s->threads; t++) {
-        free(s->thread[t].results);
+        free(s->thread[t].issued);
+        free(s->thread[t].producer);
         free(s->thread[t].late);
         free(s->thread[t].misses.until);
     }

@@ -3,20 +3,17 @@
 /* The data of an op that has issued comes later than from the first level. */
 void core_delay_result(sim_core *s, core_thread *h, const sim_op_price *p, sim_fetch fetch)
 {
-    sim_result *r = &h->results[h->next & (s->window - 1)];
-    unsigned bucket = fetch.from == SIM_LEVEL_2 ? SIM_BUCKET_L2 : SIM_BUCKET_MEMORY;
-    for (int kind = 0; kind < SIM_CONSUMERS; kind++)
-        r->ready[kind] = sim_blame(fetch.arrival + sim_time_of(p->latency.ready[kind]), bucket);
-    h->late[h->next & (s->late_window - 1)] = (core_late_result){.number = h->next, .result = *r};
+    h->late[h->next & (s->late_window - 1)] =
+        (core_late_result){.number = h->next, .bucket = fetch.from == SIM_LEVEL_2 ? SIM_BUCKET_L2 : SIM_BUCKET_MEMORY,
+                           .arrival = fetch.arrival, .price = p};
     if (fetch.arrival + s->longest_latency > h->late_until)
         h->late_until = fetch.arrival + s->longest_latency;
 }
 
-/* The thread issues nothing before then, and nothing joins the op. */
+/* The thread issues nothing before then, a later cycle, so nothing joins the op. */
 static void hold_thread(core_thread *h, sim_blamed until)
 {
     h->start = until > h->start ? until : h->start;
-    h->partners = 0;
 }
 
 void core_take_branch(sim_core *s, core_thread *h, const lrb_event *e)
@@ -86,7 +83,7 @@ static void keep_busy(sim_core *s, const core_thread *h, const sim_op_price *p)
     s->class_free[p->class_id] = until;
     for (unsigned t = 0; t < s->threads; t++) {
         core_thread *other = &s->thread[t];
-        if (other == h || s->turn[t] == CORE_NEVER || other->price->class_id != p->class_id ||
+        if (other == h || s->turn[t] == CORE_NEVER || core_price_of(s, other)->class_id != p->class_id ||
             sim_blame(s->turn[t] / CORE_TURN, s->why[t]) >= until)
             continue;
         core_settle(s, other, s->now + 1);
@@ -135,7 +132,9 @@ void core_tell(sim_core *s, const core_thread *h, const lrb_event *e)
     const uint64_t cycle = s->now - s->began;
     sim_issued issued = {.event = e, .cycle = cycle, .ready = cycle, .thread = (unsigned)(h - s->thread)};
     if (!(s->price[e->op].flags & SIM_PRICE_MARKER)) {
-        issued.ready = sim_time_of(h->results[h->next & (s->window - 1)].ready[SIM_CONSUMER_PLAIN]) - s->began;
+        const core_late_result *late = &h->late[h->next & (s->late_window - 1)];
+        const bool is_late = late->number == h->next && late->arrival > s->now;
+        issued.ready = (is_late ? late->arrival : s->now) - s->began + sim_time_of(s->price[e->op].latency.ready[SIM_CONSUMER_PLAIN]);
         issued.in_v = s->told == s->now; /* two ops of a cycle are of one thread */
         s->told = s->now;
     }

@@ -18,36 +18,45 @@ enum { CORE_TURN = 256 };
 enum { CORE_OPS = 512 };
 _Static_assert((int)LRB_OP_COUNT <= CORE_OPS, "the counters have a place for every op");
 
-/* The result of an op that waited for its line: kept longer than others. */
+/* The result of an op that waited for its line: as if the op had issued when that arrived. Kept longer than others. */
 typedef struct core_late_result {
     uint32_t number; /* of the op */
-    sim_result result;
+    unsigned bucket; /* SIM_BUCKET_L2 or SIM_BUCKET_MEMORY */
+    uint64_t arrival;
+    const sim_op_price *price;
 } core_late_result;
 
 /* An op of a tile, made ready for the loop a block at a time: what does not depend on time is found here, where a host foresees
  * its branches. */
 typedef struct core_op {
-    const sim_op_price *price;
     const lrb_event *event;
-    uint16_t source[SIM_MAX_SOURCES]; /* where in the thread's results each one's is, by kind of consumer; behind the window if
-                                         there is none */
-    uint32_t pause;                   /* markers before the op; CORE_END: there is no op here */
+    uint64_t line;                     /* that it accesses, loads and stores; SIM_NO_LINE: none */
+    uint16_t source[SIM_MAX_SOURCES];  /* where its sources are in the thread's `issued` */
+    uint32_t latencies;                /* and from there to when they are ready: a byte each, a place in the core's `latency` */
+    uint32_t slot;                     /* where its place may be known (sim/hierarchy.h) */
+    uint32_t pause;                    /* markers before the op; CORE_END: there is no op here */
+    uint8_t flags;                     /* of the price */
+    uint8_t join;                      /* core_join: the op before it */
 } core_op;
 
+/* Whether an op may issue in V beside the one before it, if both are ready. */
+typedef enum core_join { CORE_APART, CORE_JOINS, CORE_CONFLICTS /* but for its bank or its bytes */ } core_join;
+
 enum { CORE_BLOCK = 64 };
+enum { CORE_READY = LRB_CLASS_COUNT }; /* a class of results that all are ready */
+_Static_assert((CORE_READY + 1) * SIM_CONSUMERS <= 256, "latencies are numbered by bytes");
 #define CORE_END UINT32_MAX
 
 /* A hardware thread. Times are cycles, or blamed times where the type says so. */
 typedef struct core_thread {
     const core_op *op;  /* that issues next */
-    const sim_op_price *price; /* its price, once it is known when the op can issue */
     sim_blamed now;     /* of the last issue, bucket 0 */
     sim_blamed start;   /* the next op issues later than this, unless it joins */
     uint64_t waits_from; /* cycles before this are in a bucket, or in the gap */
-    sim_result *results; /* of the youngest ops, and a last one that is always 0 */
+    sim_blamed *issued;  /* when the youngest ops did, bucket 0, by number within the window; a last one is always 0 */
+    uint8_t *producer;   /* the same for the decoded ops: class, times SIM_CONSUMERS; CORE_READY: none, or long ago */
     uint32_t next;      /* number of the next op */
     uint32_t tile_first; /* number of the tile's first op */
-    uint32_t partners;  /* set of classes of which an op may join the last one in V */
     uint32_t scratch;   /* displacement of the thread's scratch memory */
     uint64_t late_until; /* no late result is ready later */
     uint64_t stores_until; /* no store is ready later */
@@ -61,6 +70,7 @@ typedef struct core_thread {
     uint64_t regions[SIM_MAX_REGIONS + 1]; /* of the tile */
     sim_whereabouts at;
 
+    const lrb_event *before;        /* the last op in the block; NULL: the tile had none yet */
     const lrb_event *decoded, *end; /* the tile's events from `decoded` on are not in the block yet; NULL: no tile */
     uint32_t trailing;      /* markers before `decoded` that no op follows */
     uint32_t decoded_phase;
@@ -72,6 +82,7 @@ struct sim_core {
     const sim_machine *machine;
     sim_op_price *price;
     uint32_t window, late_window; /* powers of two */
+    sim_blamed latency[(LRB_CLASS_COUNT + 1) * SIM_CONSUMERS]; /* of each class to each kind of consumer; of CORE_READY 0 */
     uint64_t gap;
     unsigned threads, line_bits, longest_latency;
 
@@ -88,7 +99,7 @@ struct sim_core {
     sim_predictor *predictor;
     sim_slots prefetches; /* count 0: there may be none */
 
-    uint64_t ops[CORE_OPS], op_cycles[CORE_OPS];
+    uint64_t ops[CORE_OPS], op_waited[CORE_OPS];
     uint64_t joins[CORE_OPS]; /* ops that joined another's cycle */
     uint64_t core_waited[SIM_BUCKETS], thread_waited[SIM_BUCKETS];
     uint64_t began; /* the run */
@@ -106,6 +117,9 @@ static inline void core_set_turn(sim_core *s, unsigned t, sim_blamed ready)
     s->turn[t] = s->turn[t + s->threads] = sim_without_bucket(ready);
     s->why[t] = (uint8_t)(ready & 0xff);
 }
+
+/** Price of the thread's next op. */
+static inline const sim_op_price *core_price_of(const sim_core *s, const core_thread *h) { return &s->price[h->op->event->op]; }
 
 /** Whether an access or a hint is under a mask of no lanes; an S3 in memory is read whatever the mask. */
 static inline bool core_moves_nothing(const lrb_event *e)

@@ -7,7 +7,7 @@ static void collect_issues(const sim_core *s, sim_core_stats *to)
     for (int id = 0; id < LRB_OP_COUNT; id++) {
         uint64_t first = lrb_op_table[id].shape == LRB_SHAPE_MARK ? 0 : s->ops[id] - s->joins[id];
         to->ops[id] = s->ops[id];
-        to->op_cycles[id] = s->op_cycles[id];
+        to->op_cycles[id] = first + s->op_waited[id];
         to->op_issues[id] = first;
         to->issued_by_class[lrb_op_table[id].class_id] += first;
         issues += first;

@@ -31,69 +31,131 @@ static void pass(sim_core *s, core_thread *h, const lrb_event *markers, uint32_t
     }
 }
 
+/* What the loop over a block reads, in a place that no store of the loop can change. */
+typedef struct decoder {
+    const sim_op_price *price;
+    uint8_t *producer;
+    uint16_t window;
+    uint64_t scratch;
+    unsigned line_bits, known_shift;
+    uint32_t known_none;
+} decoder;
+
 /* One number for each source of an op, worked on together. */
 typedef uint16_t four_sources __attribute__((vector_size(8)));
 
-static inline four_sources load_four(const uint16_t numbers[SIM_MAX_SOURCES])
+/* Where the sources of an op are among the youngest ops, and how long they take. Those that it does not have, and those of long ago,
+ * are behind the window, and ready. */
+static inline void place_sources(const decoder *d, core_op *op, const lrb_event *e, const sim_op_price *p, uint32_t number)
 {
-    four_sources four;
-    memcpy(&four, numbers, sizeof four);
-    return four;
+    four_sources distance;
+    uint32_t consumers;
+    memcpy(&distance, e->src, sizeof distance);
+    memcpy(&consumers, p->consumer, sizeof consumers);
+    const four_sources recent = (four_sources)(distance - 1 < (uint16_t)(d->window - 1));
+    const four_sources place = (((uint16_t)number - distance) & (uint16_t)(d->window - 1) & recent) | (d->window & ~recent);
+    memcpy(op->source, &place, sizeof place);
+    op->latencies = consumers + (d->producer[place[0]] | (uint32_t)d->producer[place[1]] << 8 | (uint32_t)d->producer[place[2]] << 16 |
+                                 (uint32_t)d->producer[place[3]] << 24);
 }
 
-/* Where the sources of an op are among the results. Those that it does not have, and those of long ago, are 0: behind the window. */
-static inline void place_sources(core_op *op, uint32_t number, uint32_t window)
+enum { ACCESS = SIM_PRICE_READS | SIM_PRICE_STORE };
+
+/* Whether two lines lie in the same bank. */
+static bool share_bank(const sim_core *s, uint64_t a, uint64_t b)
 {
-    const four_sources distance = load_four(op->event->src);
-    const four_sources recent = (four_sources)(distance - 1 < (uint16_t)(window - 1));
-    const four_sources place = ((uint16_t)number - distance) & (uint16_t)(window - 1);
-    const four_sources source = place * SIM_CONSUMERS + (four_sources){op->price->consumer[0], op->price->consumer[1], op->price->consumer[2], op->price->consumer[3]};
-    const four_sources chosen = (source & recent) | ((uint16_t)(window * SIM_CONSUMERS) & ~recent);
-    memcpy(op->source, &chosen, sizeof chosen);
+    return s->machine->l1.banks && (a == b || (a > b ? a - b : b - a) % s->machine->l1.banks == 0);
 }
 
-/* Lanes of the ops of a phase. */
-typedef struct lane_counts {
-    uint64_t vector_ops, idle_lanes;
-} lane_counts;
-
-static void add_lanes(sim_core *s, core_thread *h, lane_counts *lanes)
+/* May two ops that access memory do so in the same cycle? */
+static bool share_memory(const sim_core *s, const core_thread *h, const lrb_event *first, const sim_op_price *p, const lrb_event *e,
+                         const sim_op_price *q)
 {
-    s->stats.phase_vector_ops[h->decoded_phase] += lanes->vector_ops;
-    s->stats.phase_idle_lanes[h->decoded_phase] += lanes->idle_lanes;
-    *lanes = (lane_counts){0};
+    const unsigned loaded = (p->flags & SIM_PRICE_READS ? p->bytes : 0) + (q->flags & SIM_PRICE_READS ? q->bytes : 0);
+    const unsigned stored = (p->flags & SIM_PRICE_STORE ? p->bytes : 0) + (q->flags & SIM_PRICE_STORE ? q->bytes : 0);
+    return loaded <= s->machine->l1.load_bytes_per_cycle && stored <= s->machine->l1.store_bytes_per_cycle &&
+           !share_bank(s, core_line_of(s, h, first), core_line_of(s, h, e));
+}
+
+/* May an op issue in V beside the one before it, first, whose price is p? */
+static inline core_join may_join(const sim_core *s, const core_thread *h, const lrb_event *first, const sim_op_price *p,
+                                 const lrb_event *e, const sim_op_price *q)
+{
+    const unsigned join = p->partners >> q->class_id & 1;
+    if (join && p->flags & ACCESS && q->flags & ACCESS && !share_memory(s, h, first, p, e, q))
+        return CORE_CONFLICTS;
+    return join ? CORE_JOINS : CORE_APART;
+}
+
+/* Sums over the ops of a phase. */
+typedef struct block_counts {
+    uint64_t vector_ops, idle_lanes, memory_operands, accesses;
+} block_counts;
+
+static void add_counts(sim_core *s, const core_thread *h, block_counts *n)
+{
+    s->stats.phase_vector_ops[h->decoded_phase] += n->vector_ops;
+    s->stats.phase_idle_lanes[h->decoded_phase] += n->idle_lanes;
+    s->stats.memory_operands += n->memory_operands;
+    s->memory->counts.l1_accesses += n->accesses;
+    *n = (block_counts){0};
+}
+
+/* Make ready the op of this number, which stands behind `markers`. */
+static inline void decode_op(const decoder *d, core_op *op, const lrb_event *e, const sim_op_price *p, uint32_t number, uint32_t markers)
+{
+    const uint64_t address = e->aux + (e->aux >= LRB_SCRATCH_ADDRESS ? d->scratch : 0), line = address >> d->line_bits;
+    const bool accesses = p->flags & ACCESS && !core_moves_nothing(e);
+    op->event = e;
+    op->line = accesses ? line : SIM_NO_LINE;
+    op->slot = accesses ? sim_known_slot(line, d->known_shift) : d->known_none;
+    op->pause = markers;
+    op->flags = p->flags;
+    place_sources(d, op, e, p, number);
+    d->producer[number & (d->window - 1u)] = (uint8_t)(p->class_id * SIM_CONSUMERS);
+}
+
+static inline void count_op(block_counts *n, const lrb_event *e, const sim_op_price *p, const core_op *op)
+{
+    n->vector_ops += p->lanes & 1;
+    n->memory_operands += (e->op & LRB_FORM_MEMORY) != 0;
+    n->accesses += op->line != SIM_NO_LINE;
+    if (e->mask != 0xffff)
+        n->idle_lanes += (unsigned)__builtin_popcount(p->lanes & ~(unsigned)e->mask);
 }
 
 /* Make the next ops of the tile ready. All before have issued. */
 static void decode(sim_core *s, core_thread *h)
 {
-    const uint32_t window = s->window;
+    const decoder d = {s->price, h->producer, (uint16_t)s->window, h->scratch, s->line_bits, s->memory->known_shift, s->memory->known_count};
     uint32_t number = h->next, markers = 0;
     core_op *op = h->block;
-    const lrb_event *e = h->decoded;
-    lane_counts lanes = {0};
-    for (; e < h->end && op < h->block + CORE_BLOCK; e++) {
-        const sim_op_price *p = &s->price[e->op];
+    const lrb_event *e = h->decoded, *before = h->before, *const end = h->end;
+    const sim_op_price *last = before ? &d.price[before->op] : NULL;
+    block_counts counts = {0};
+    for (; e < end && op < h->block + CORE_BLOCK; e++) {
+        const sim_op_price *p = &d.price[e->op];
         s->ops[e->op & (CORE_OPS - 1)]++;
         if (p->flags & SIM_PRICE_MARKER) {
             markers++;
             if ((e->op & LRB_EVENT_ID) == LRB_OP_phase) {
-                add_lanes(s, h, &lanes);
+                add_counts(s, h, &counts);
                 h->decoded_phase = e->aux < SIM_MAX_PHASES ? e->aux : SIM_MAX_PHASES - 1;
             }
             continue;
         }
-        lanes.vector_ops += p->lanes & 1;
-        lanes.idle_lanes += (unsigned)__builtin_popcount(p->lanes & ~(unsigned)e->mask);
-        s->stats.memory_operands += (e->op & LRB_FORM_MEMORY) != 0;
-        *op = (core_op){.price = p, .event = e, .pause = markers};
-        place_sources(op++, number++, window);
+        decode_op(&d, op, e, p, number++, markers);
+        count_op(&counts, e, p, op);
+        op++->join = last ? (uint8_t)may_join(s, h, before, last, e, p) : CORE_APART;
+        before = e;
+        last = p;
         markers = 0;
     }
-    add_lanes(s, h, &lanes);
+    add_counts(s, h, &counts);
     op->pause = CORE_END;
     h->trailing = markers;
     h->decoded = e;
+    h->before = before;
     h->op = h->block;
 }
 
@@ -112,12 +174,12 @@ bool core_pass_markers(sim_core *s, core_thread *h)
 
 bool core_begin_tile(sim_core *s, core_thread *h, const lrb_event *events, size_t count)
 {
-    memset(h->results, 0, s->window * sizeof *h->results);
+    memset(h->producer, CORE_READY * SIM_CONSUMERS, s->window + 1);
     memset(h->stores, 0, sizeof h->stores);
     memset(h->regions, 0, sizeof h->regions);
     h->tile_first = h->next;
     h->late_until = h->stores_until = 0;
-    h->partners = 0;
+    h->before = NULL;
     h->phase = h->decoded_phase = 0;
     h->at = (sim_whereabouts){0};
     h->region = SIM_MAX_REGIONS;

@@ -9,9 +9,24 @@ void sim_hierarchy_destroy(sim_hierarchy **h)
         sim_cache_destroy(&(*h)->l2);
         free((*h)->to_l1.lines);
         free((*h)->to_l2.lines);
+        free((*h)->known);
     }
     free(*h);
     *h = NULL;
+}
+
+/* No line is known, and that which is none lies in the free place behind all others. */
+static bool know_none(sim_hierarchy *h)
+{
+    const uint64_t places = h->l1->sets * h->l1->ways;
+    h->known_shift = 31;
+    while (1u << (32 - h->known_shift) < 2 * places && h->known_shift > 1)
+        h->known_shift--;
+    h->known_count = 1u << (32 - h->known_shift);
+    h->known = malloc((h->known_count + 1) * sizeof *h->known);
+    for (uint32_t i = 0; h->known && i <= h->known_count; i++)
+        h->known[i] = (uint32_t)places;
+    return h->known;
 }
 
 base_status sim_hierarchy_create(const sim_machine *machine, unsigned lines, sim_hierarchy **out, base_error *err)
@@ -33,6 +48,8 @@ base_status sim_hierarchy_create(const sim_machine *machine, unsigned lines, sim
         status = sim_cache_create(machine->l1.size_bytes, machine->l1.ways, machine->l1.line_bytes, &h->l1, err);
     if (status == BASE_OK)
         status = sim_cache_create(machine->l2.size_bytes, machine->l2.ways, machine->l2.line_bytes, &h->l2, err);
+    if (status == BASE_OK && !know_none(h))
+        status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     if (status != BASE_OK)
         sim_hierarchy_destroy(out);
     return status;
@@ -81,6 +98,13 @@ static sim_fetch fetch_from_memory(sim_hierarchy *h, uint64_t line, uint64_t now
     return fetch;
 }
 
+/* The place of a line is known if it is in the first level and not on its way there. */
+static void know(sim_hierarchy *h, uint64_t line, bool on_its_way)
+{
+    const uint64_t places = h->l1->sets * h->l1->ways;
+    h->known[sim_known_slot(line, h->known_shift)] = (uint32_t)(on_its_way ? places : sim_cache_place(h->l1, line));
+}
+
 /* The first level asks for a line. */
 static sim_fetch fetch_to_l1(sim_hierarchy *h, uint64_t line, uint64_t now)
 {
@@ -99,6 +123,7 @@ static sim_fetch fetch_to_l1(sim_hierarchy *h, uint64_t line, uint64_t now)
         h->counts.l2_misses++;
     }
     add_flight(&h->to_l1, line, now, fetch);
+    know(h, line, true);
     return fetch;
 }
 
@@ -112,15 +137,15 @@ bool sim_hierarchy_would_miss_l2(const sim_hierarchy *h, uint64_t line, uint64_t
     return !sim_cache_holds(h->l2, line) && !find_flight(&h->to_l2, line, now).arrival;
 }
 
-sim_fetch sim_hierarchy_wait(sim_hierarchy *h, uint64_t line, uint64_t now, bool hit)
+sim_fetch sim_hierarchy_access(sim_hierarchy *h, uint64_t line, uint64_t now)
 {
-    sim_fetch coming = find_flight(&h->to_l1, line, now);
-    if (coming.arrival) {
-        h->counts.l1_waits++;
+    const bool hit = sim_cache_touch(h->l1, line);
+    const sim_fetch coming = find_flight(&h->to_l1, line, now);
+    if (hit || coming.arrival) {
+        h->counts.l1_waits += coming.arrival > 0;
+        know(h, line, coming.arrival > 0);
         return coming;
     }
-    if (hit)
-        return (sim_fetch){.arrival = 0};
     h->counts.l1_misses++;
     return fetch_to_l1(h, line, now);
 }

@@ -40,6 +40,9 @@ typedef struct sim_hierarchy_counts {
 
 typedef struct sim_hierarchy {
     sim_cache *l1, *l2;
+    uint32_t *known; /* owned; by sim_known_slot: place of a line that was in the first level, and not on its way, when it was last used */
+    uint32_t known_count;
+    unsigned known_shift;
     sim_flight to_l1, to_l2;
     uint64_t l2_free, memory_free; /* tenths of a cycle: when the level can send the next line */
     uint32_t l2_line_tenths, memory_line_tenths;
@@ -72,18 +75,27 @@ bool sim_hierarchy_would_miss(const sim_hierarchy *h, uint64_t line, uint64_t no
 /** The same for the second level. */
 bool sim_hierarchy_would_miss_l2(const sim_hierarchy *h, uint64_t line, uint64_t now);
 
-/** What sim_hierarchy_access does when the line is not simply there. */
-sim_fetch sim_hierarchy_wait(sim_hierarchy *h, uint64_t line, uint64_t now, bool hit);
-
-/** Load from or store to a line. Times never go back. */
-static inline sim_fetch sim_hierarchy_access(sim_hierarchy *h, uint64_t line, uint64_t now)
+/** Where a line's place may be in h->known: for sim_hierarchy_hits. */
+static inline uint32_t sim_known_slot(uint64_t line, unsigned known_shift)
 {
-    bool hit = sim_cache_touch(h->l1, line);
-    h->counts.l1_accesses++;
-    if (hit && h->to_l1.latest <= now)
-        return (sim_fetch){.arrival = 0};
-    return sim_hierarchy_wait(h, line, now, hit);
+    return (uint32_t)line * UINT32_C(0x9e3779b1) >> known_shift;
 }
+
+/**
+ * Use a line if it is known to be in the first level and not on its way there. False: nothing was done, sim_hierarchy_access says
+ * more. SIM_NO_LINE always hits: so ops that access nothing need no branch that a host would have to foresee.
+ */
+static inline bool sim_hierarchy_hits(sim_hierarchy *h, uint64_t line, uint32_t slot)
+{
+    const uint32_t place = h->known[slot];
+    if (h->l1->lines[place] != line)
+        return false;
+    h->l1->used[place] = ++h->l1->uses;
+    return true;
+}
+
+/** Load from or store to a line. Times never go back. h->counts.l1_accesses is the caller's. */
+sim_fetch sim_hierarchy_access(sim_hierarchy *h, uint64_t line, uint64_t now);
 
 /** Bring a line to the first level (level 1) or the second (2), for a prefetch that sim_hierarchy_would_miss. */
 sim_fetch sim_hierarchy_prefetch(sim_hierarchy *h, uint64_t line, uint64_t now, sim_level level);

@@ -1,15 +1,20 @@
-/* Sampling: the total of something dear over all units of a run, from a few units and something cheap that is known of all.
+/* Sampling: the total of something dear over all units of a run, from a few units and two cheap things that are known of all.
  *
- * Units are whatever the caller cuts a run into. Each has a size x, known beforehand and cheap (its cycles in `count`), and a
- * value y that costs much to find (its cycles in `core`). Where y is about proportional to x, the ratio of a few y to
- * their x makes of the sum of all x a good estimate of the sum of all y: x is the control variate.
+ * Units are whatever the caller cuts a run into. Each has a size x, a second quantity z, both cheap, and a value y that costs much
+ * to find: cycles in `count`, lines from memory, cycles in `core`. Where y is about b x + c z, a few y give b and c,
+ * and these make of the sums of all x and z a good estimate of the sum of all y: x and z are the control variates.
  *
  * - Stratified: units are ordered by x and cut into strata of about equal sums of x; a round draws one unit from each, at
  *   random and without putting it back, so large units, which matter most, are drawn more often.
- * - Estimated by the combined ratio (W. G. Cochran, "Sampling Techniques", 3rd edition, 1977, 6.11): the sum of all x times
- *   b = sum of N_h mean(y) over sum of N_h mean(x), over the strata h of N_h units.
- * - Its variance: the sum over strata of N_h^2 (1 - n_h/N_h) / n_h times the variance of y - b x within the stratum
- *   (6.47 there); the interval is Student's, with Satterthwaite's degrees of freedom: few where one stratum has most of the variance.
+ * - Estimated by regression (C.-E. Saerndal, B. Swensson, J. Wretman, "Model Assisted Survey Sampling", 1992, chapter 6): b and
+ *   c by least squares, a unit of stratum h weighing N_h / n_h / x; so weighted residuals sum to zero, and the total is b times the sum of
+ *   all x plus c times that of all z. Without z it is the combined ratio estimator (W. G. Cochran, "Sampling
+ *   Techniques", 3rd edition, 1977, 6.11).
+ * - Its variance: the sum over strata of N_h^2 / n_h times the variance of the residuals within the stratum (6.47 there, without
+ *   the correction for a finite population: a unit that is simulated by itself takes a little more or less than it does in the run, so that
+ *   all of them together would not give the total either), residuals taken as they are, not from the stratum's mean, and
+ *   made larger by their units' leverage. The interval is Student's, with Satterthwaite's degrees of freedom less those of b and c:
+ *   few where one stratum has most of the variance.
  *
  * The order of draws is a function of the seed and the sizes alone.
  */
@@ -30,8 +35,9 @@ typedef struct sim_sample sim_sample;
 /* What is known of the total. */
 typedef struct sim_estimate {
     double total;
-    double half_width_95; /* the total is within +- of it in 95 of 100 samples; 0 once every unit is drawn; infinity before two rounds */
-    size_t drawn, units;
+    double half_width_95; /* the total is within +- of it in 95 of 100 samples; infinity before two rounds */
+    size_t added, units;
+    double per_size, per_second; /* b and c: what a unit of x and of z are worth */
 } sim_estimate;
 
 /**
@@ -58,15 +64,16 @@ void sim_sample_destroy(sim_sample **sample);
 size_t sim_sample_draw(sim_sample *sample, size_t units[SIM_SAMPLE_STRATA]);
 
 /**
- * Tell what was found of a unit that was drawn; once each.
+ * Tell the second quantity of all units; without it only the size is used.
  *
- * @param size   x, as it came out: the same as the size known beforehand where units do not overlap; where they do, a
- *               little more or less of the neighbours, and `value` is that of as much
- * @param value  y
+ * @param second  z of each unit, all at least 0; not kept
  */
-void sim_sample_add(sim_sample *sample, size_t unit, double size, double value);
+void sim_sample_set_second(sim_sample *sample, const double *second);
 
-/** Estimate the total from the units that were added; all that were drawn must have been. */
+/** Tell the value y of a unit that was drawn: once each, those of a stratum in the order of the draws. */
+void sim_sample_add(sim_sample *sample, size_t unit, double value);
+
+/** Estimate the total from the units that were added, at least one of each stratum that has one. */
 sim_estimate sim_sample_estimate(const sim_sample *sample);
 
 /** Half the width of Student's 95% interval, in standard errors, for so many degrees of freedom; infinity for 0. */

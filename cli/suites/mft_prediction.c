@@ -23,7 +23,7 @@ static mft_events events_of(const run_result *r, size_t machine, mft_algorithm a
         .machine = machine,
         .algorithm = a,
         .scene = scene_name,
-        .cycles = {[MFT_EVENT_SETUP] = (double)phase[KERNEL_PHASE_SETUP], [MFT_EVENT_AABB] = (double)phase[KERNEL_PHASE_TRAVERSAL],
+        .cycles = {[MFT_EVENT_SETUP] = (double)(phase[KERNEL_PHASE_SETUP] + phase[KERNEL_PHASE_SHADING]), [MFT_EVENT_AABB] = (double)phase[KERNEL_PHASE_TRAVERSAL],
                    [MFT_EVENT_TRI] = (double)phase[KERNEL_PHASE_CULLING], [MFT_EVENT_ISECT] = (double)phase[KERNEL_PHASE_INTERSECTION]},
         .events = {[MFT_EVENT_SETUP] = (double)r->options.width * r->options.height, [MFT_EVENT_AABB] = (double)n[KERNEL_aabb_tests],
                    [MFT_EVENT_TRI] = (double)n[KERNEL_tri_accesses], [MFT_EVENT_ISECT] = (double)n[KERNEL_isect_tests]},
@@ -35,7 +35,7 @@ static base_status measure_scene(suite *s, const suite_scene *on, void *user, ba
     measured *m = user;
     base_status status = BASE_OK;
     for (size_t machine = 0; machine < MACHINES; machine++)
-        for (int a = 0; status == BASE_OK && a < MFT_MEASURED; a++) {
+        for (int a = 0; status == BASE_OK && a < mft_algorithms_measured(); a++) {
             run_result result = {0};
             status = mft_run(s, on->scene, (mft_algorithm)a, m->machines[machine].machine, &result, err);
             if (status == BASE_OK)
@@ -70,7 +70,7 @@ static base_status add_plot(suite *s, const mft_measured *m, base_error *err)
 static base_status add_results(suite *s, const measured *found, base_error *err)
 {
     const char *const names[MACHINES] = {found->names[0], found->names[1], found->names[2], found->names[3]};
-    const mft_measured m = {names, MACHINES, found->events, found->count, MFT_MEASURED};
+    const mft_measured m = {names, MACHINES, found->events, found->count, (size_t)mft_algorithms_measured()};
     char caption[SUITE_CHANGED_BYTES + 240];
     snprintf(caption, sizeof caption, "Costs measured at %ux%u pixels on %zu scene%s, machine %s, core model. No cache misses: %s.", s->width, s->height,
              s->scene_count, s->scene_count == 1 ? "" : "s", s->options->machine->name, found->machines[2].changed);
@@ -87,7 +87,7 @@ static base_status add_results(suite *s, const measured *found, base_error *err)
 
 static base_status measure(suite *s, base_error *err)
 {
-    measured m = {.events = calloc(s->scene_count * MACHINES * MFT_MEASURED, sizeof *m.events)};
+    measured m = {.events = calloc(s->scene_count * MACHINES * MFT_ALGORITHMS, sizeof *m.events)};
     base_status status = m.events ? make_machines(s, &m, err) : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
     if (status == BASE_OK)
         status = suite_each_scene(s, measure_scene, &m, err);

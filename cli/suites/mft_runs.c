@@ -8,6 +8,14 @@ const char *mft_kernel(mft_algorithm algorithm)
     return kernels[algorithm];
 }
 
+int mft_algorithms_measured(void)
+{
+    int count = 0;
+    while (count < MFT_ALGORITHMS && kernel_find(mft_kernel((mft_algorithm)count)) && kernel_find(mft_kernel((mft_algorithm)(count + 1))))
+        count += 2;
+    return count;
+}
+
 base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err)
 {
     run_options options = suite_run_options(s, kernel_find(mft_kernel(algorithm)), RUN_CORE);

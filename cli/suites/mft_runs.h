@@ -5,8 +5,8 @@
 #include "cli/suite.h"
 #include "reports/views/mft_table1.h"
 
-/** Algorithms that have a kernel: the first so many of mft_algorithm. */
-enum { MFT_MEASURED = MFT_P_FRUSTA + 1 };
+/** How many algorithms have a kernel in this program: the first so many of mft_algorithm, packets and frusta in pairs. */
+int mft_algorithms_measured(void);
 
 /** Name of an algorithm's kernel. */
 const char *mft_kernel(mft_algorithm algorithm);

@@ -8,7 +8,7 @@
 typedef struct measured {
     mft_row *rows;
     size_t count;
-    char (*pictures)[1 + MFT_MEASURED][SUITE_PATH_BYTES]; /* by scene: the scene, then a heat map by algorithm */
+    char (*pictures)[1 + MFT_ALGORITHMS][SUITE_PATH_BYTES]; /* by scene: the scene, then a heat map by algorithm */
     size_t scenes;
 } measured;
 
@@ -40,7 +40,7 @@ static base_status measure_scene(suite *s, const suite_scene *on, void *user, ba
     measured *m = user;
     double top = 0;
     base_status status = BASE_OK;
-    for (int a = 0; status == BASE_OK && a < MFT_MEASURED; a++) {
+    for (int a = 0; status == BASE_OK && a < mft_algorithms_measured(); a++) {
         run_result result = {0};
         status = mft_run(s, on->scene, (mft_algorithm)a, s->options->machine, &result, err);
         if (status == BASE_OK)
@@ -60,9 +60,9 @@ static base_status add_pictures(suite *s, const measured *m, base_error *err)
     report_page_add_paragraph(s->page, "The scene as its rays hit it, lit by a point at its light's centre, and simulated cycles per pixel of each "
                                        "algorithm, frusta on the scale of their packets.");
     for (size_t i = 0; status == BASE_OK && i < m->scenes; i++) {
-        report_figure figures[1 + MFT_MEASURED] = {{m->pictures[i][0], "rendered picture", "rendered picture"}};
-        const size_t count = s->options->error > 0 ? 1 : 1 + MFT_MEASURED;
-        for (int a = 0; a < MFT_MEASURED; a++)
+        report_figure figures[1 + MFT_ALGORITHMS] = {{m->pictures[i][0], "rendered picture", "rendered picture"}};
+        const size_t count = s->options->error > 0 ? 1 : 1 + (size_t)mft_algorithms_measured();
+        for (int a = 0; a < mft_algorithms_measured(); a++)
             figures[1 + a] = (report_figure){m->pictures[i][1 + a], "heat map of simulated cycles", mft_algorithm_names[a]};
         report_page_add_heading(s->page, 2, s->scenes[i].name);
         status = report_page_add_pictures(s->page, figures, count, err);
@@ -87,7 +87,7 @@ static base_status add_results(suite *s, const measured *m, base_error *err)
 
 static base_status measure(suite *s, base_error *err)
 {
-    measured m = {.rows = calloc(s->scene_count * MFT_MEASURED, sizeof *m.rows), .pictures = calloc(s->scene_count, sizeof *m.pictures)};
+    measured m = {.rows = calloc(s->scene_count * MFT_ALGORITHMS, sizeof *m.rows), .pictures = calloc(s->scene_count, sizeof *m.pictures)};
     base_status status = m.rows && m.pictures ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
     if (status == BASE_OK)
         status = suite_each_scene(s, measure_scene, &m, err);

@@ -1,6 +1,7 @@
 #include "reports/views/mft_prediction.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,7 +70,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Size of the errors over the rows of packets (remainder 0), of frusta (1), or of all (2). */
+/* Size of the errors over the rows of packets (remainder 0), of frusta (1), or of all (2), of those that could be predicted; NaN if
+   none could. */
 typedef struct error_sizes {
     double median, worst;
     prediction farthest;
@@ -79,19 +81,20 @@ static error_sizes sizes_of(const prediction *rows, size_t count, unsigned remai
 {
     double sizes[ROWS];
     size_t n = 0;
-    error_sizes e = {.worst = -1};
+    error_sizes e = {.median = (double)NAN, .worst = (double)NAN};
     for (size_t i = 0; i < count; i++) {
-        if (remainder < 2 && rows[i].algorithm % 2 != remainder)
+        if ((remainder < 2 && rows[i].algorithm % 2 != remainder) || isnan(rows[i].predicted))
             continue;
         sizes[n] = fabs(error_of(&rows[i]));
-        if (sizes[n] > e.worst) {
+        if (!(sizes[n] <= e.worst)) {
             e.worst = sizes[n];
             e.farthest = rows[i];
         }
         n++;
     }
     qsort(sizes, n, sizeof *sizes, ascending);
-    e.median = n ? (sizes[(n - 1) / 2] + sizes[n / 2]) / 2 : (double)NAN;
+    if (n)
+        e.median = (sizes[(n - 1) / 2] + sizes[n / 2]) / 2;
     return e;
 }
 
@@ -168,8 +171,15 @@ report_table *mft_prediction_summary(const mft_measured *m, const char *caption)
             add_sizes(t, sizes_of(rows, count, remainder));
     }
     const reading best = best_of(m);
-    const error_sizes e = sizes_of(rows, predict_all(m, best, rows), 2);
-    say_farthest(t, m, best, &e.farthest);
+    const size_t count = predict_all(m, best, rows);
+    const error_sizes e = sizes_of(rows, count, 2);
+    bool whole = true;
+    for (size_t i = 0; i < count; i++)
+        whole = whole && !isnan(rows[i].predicted);
+    if (!isnan(e.worst))
+        say_farthest(t, m, best, &e.farthest);
+    if (!whole)
+        report_table_add_note(t, "Rows of an algorithm are not predicted if an event did not happen in it on any of the scenes.");
     report_table_add_note(t, "Errors by their size, without their sign. Predicted: the paper's counts of a row times what such events cost here, on other "
                              "scenes and with no constant fitted to the paper. What the paper leaves open is read both ways: whether its AABB test is one "
                              "box or the pair of a node, whether one hardware thread ran or all, and whether its simulator knew cache misses.");

@@ -1,15 +1,16 @@
 /* Sampled simulation against the truth: how often the stated interval holds the cycles of the full core model.
  *
- *   bench_sample [--size N] [--trials N] [--error E]
+ *   bench_sample [--size N] [--trials N] [--error E,E,...]
  *
  * For both kernels and every built-in scene the image is simulated in full once, and then sampled with that many seeds. Rows of
- * CSV on stdout: trials whose interval holds the truth, mean and root mean square of their relative errors, mean tiles and
- * seconds, and how many times faster than the full run that is; lines of '#' name the compiler and the CPU.
+ * CSV on stdout: trials whose interval holds the truth, mean and root mean square of their relative errors, mean half-width, tiles and
+ * seconds of the host's processor, and how many times faster than the full run that is; lines of '#' name the compiler and the CPU.
  */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "cli/run.h"
 #include "scene/builtin.h"
@@ -19,47 +20,74 @@
 /* Sums over the trials. */
 typedef struct trials {
     int count, hold;
-    double error, squares, tiles, seconds;
+    double error, squares, half_width, tiles, seconds;
 } trials;
+
+/* Run the kernel; seconds of the host's processor, which other work on the host does not count among, tree and all. */
+static base_status run_timed(const scene *s, const sim_machine *machine, const run_options *options, run_result *r, double *seconds, base_error *err)
+{
+    const clock_t begin = clock();
+    base_status status = run_kernel(s, machine, options, r, err);
+    *seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
+    return status;
+}
 
 static base_status sample(const scene *s, const sim_machine *machine, run_options *options, double truth, trials *t, base_error *err)
 {
     run_result r;
+    double seconds;
     options->seed = (uint64_t)t->count * 7919 + 1;
-    base_status status = run_kernel(s, machine, options, &r, err);
+    base_status status = run_timed(s, machine, options, &r, &seconds, err);
     if (status == BASE_OK) {
         double error = (double)r.cycles / truth - 1;
         t->count++;
         t->hold += fabs((double)r.cycles - truth) <= r.estimate.half_width_95 * (double)r.cycles;
         t->error += error;
         t->squares += error * error;
+        t->half_width += r.estimate.half_width_95;
         t->tiles += (double)r.estimate.tiles_simulated;
-        t->seconds += r.kernel_seconds;
+        t->seconds += seconds;
     }
     run_result_destroy(&r);
     return status;
 }
 
-static base_status bench_scene(const scene *s, const sim_machine *machine, run_options *options, double error, int count, base_error *err)
+/* What the trials are held against. */
+typedef struct truth {
+    double cycles, seconds;
+} truth;
+
+static base_status bench_error(const scene *s, const sim_machine *machine, run_options *options, const truth *full, int count, base_error *err)
 {
-    run_result full;
-    options->error = 0;
-    base_status status = run_kernel(s, machine, options, &full, err);
-    const double truth = (double)full.cycles, seconds = full.kernel_seconds;
-    run_result_destroy(&full);
-    options->error = error;
+    base_status status = BASE_OK;
     trials t = {0};
     while (status == BASE_OK && t.count < count)
-        status = sample(s, machine, options, truth, &t, err);
+        status = sample(s, machine, options, full->cycles, &t, err);
     if (status != BASE_OK)
         return status;
-    printf("%s,%s,%u,%g,%d,%d,%.6f,%.6f,%.1f,%.4f,%.4f,%.1f\n", options->kernel->name, s->name, options->width, error, t.count, t.hold,
-           t.error / t.count, sqrt(t.squares / t.count), t.tiles / t.count, seconds, t.seconds / t.count, seconds / (t.seconds / t.count));
+    printf("%s,%s,%u,%g,%d,%d,%.6f,%.6f,%.6f,%.1f,%.4f,%.4f,%.1f\n", options->kernel->name, s->name, options->width, options->error, t.count, t.hold,
+           t.error / t.count, sqrt(t.squares / t.count), t.half_width / t.count, t.tiles / t.count, full->seconds, t.seconds / t.count, full->seconds / (t.seconds / t.count));
     fflush(stdout);
     return BASE_OK;
 }
 
-static base_status bench_all(const sim_machine *machine, run_options *options, double error, int count, base_error *err)
+/* The full run once, then samples of every error. */
+static base_status bench_scene(const scene *s, const sim_machine *machine, run_options *options, const char *errors, int count, base_error *err)
+{
+    run_result r;
+    truth full;
+    options->error = 0;
+    base_status status = run_timed(s, machine, options, &r, &full.seconds, err);
+    full.cycles = (double)r.cycles;
+    run_result_destroy(&r);
+    for (const char *at = errors; status == BASE_OK && at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        options->error = strtod(at, NULL);
+        status = bench_error(s, machine, options, &full, count, err);
+    }
+    return status;
+}
+
+static base_status bench_all(const sim_machine *machine, run_options *options, const char *errors, int count, base_error *err)
 {
     static const char *const kernels[] = {"packet16-primary", "mft-primary"};
     size_t scenes;
@@ -71,7 +99,7 @@ static base_status bench_all(const sim_machine *machine, run_options *options, d
         options->params = options->kernel->defaults;
         status = scene_open(spec[i / 2], &s, err);
         if (status == BASE_OK)
-            status = bench_scene(s, machine, options, error, count, err);
+            status = bench_scene(s, machine, options, errors, count, err);
         scene_destroy(&s);
     }
     return status;
@@ -82,7 +110,7 @@ int main(int argc, char **argv)
     base_error err = {0};
     sim_machine *machine = NULL;
     run_options options = {.width = 512, .height = 512, .model = RUN_CORE, .jobs = 1};
-    double error = 0.03;
+    const char *errors = "0.03";
     int count = 40;
     for (int i = 1; i + 1 < argc; i += 2) {
         if (strcmp(argv[i], "--size") == 0)
@@ -90,15 +118,15 @@ int main(int argc, char **argv)
         else if (strcmp(argv[i], "--trials") == 0)
             count = (int)strtol(argv[i + 1], NULL, 10);
         else if (strcmp(argv[i], "--error") == 0)
-            error = strtod(argv[i + 1], NULL);
+            errors = argv[i + 1];
         else
             return fprintf(stderr, "bench_sample: error: %s: no such option\n", argv[i]), 2;
     }
     measure_print_head();
-    printf("kernel,scene,size,error,trials,hold,bias,rms,tiles,full_s,sampled_s,times_faster\n");
+    printf("kernel,scene,size,error,trials,hold,bias,rms,half_width,tiles,full_s,sampled_s,times_faster\n");
     base_status status = sim_machine_load("larrabee", &machine, &err);
     if (status == BASE_OK)
-        status = bench_all(machine, &options, error, count, &err);
+        status = bench_all(machine, &options, errors, count, &err);
     sim_machine_destroy(&machine);
     if (status != BASE_OK)
         fprintf(stderr, "bench_sample: error: %s: %s\n", err.what, err.why);

@@ -67,7 +67,7 @@ static void answer__nearest__right_without_error(void **state)
     assert_false(trial_ray_at_edge(b.ray));
     trial_finding f = say(&b, FRONT, 2);
     assert_int_equal(f.verdict, TRIAL_RIGHT);
-    assert_true(f.t_ulp == 0 && f.plane_ulp == 0 && f.weight_error == 0 && !f.leak);
+    assert_true(f.t_ulp == 0 && f.plane_ulp == 0 && f.point_ulp == 0 && !f.leak);
     f = say(&b, FRONT, nextafterf(2, 3));
     assert_int_equal(f.verdict, TRIAL_RIGHT);
     assert_true(f.t_ulp == 1);

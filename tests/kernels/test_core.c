@@ -33,12 +33,14 @@ static void append(void *user, const lrb_event *events, uint32_t count)
 
 static void record(const kernel_info *kernel, const scene *s, recording tiles[TILES])
 {
-    kernel_job *job = NULL;
     lrb_ctx *c = NULL;
     recording *into = NULL;
     kernel_counts n = {{0}};
-    bvh *tree = trace_tree(s, kernel->defaults.max_leaf);
-    assert_int_equal(kernel_job_create(tree, &s->cameras[0], SIZE, SIZE, &kernel->defaults, &job, NULL), BASE_OK);
+    kernel_params params = kernel->defaults;
+    params.its = 0; /* a tile a unit of work */
+    trace_trees trees = trace_trees_of(kernel, s, &s->cameras[0]);
+    kernel_job *job = trace_job(&(trace_request){.kernel = kernel->name, .tree = trees.tree, .kdtree = trees.kdtree, .params = &params,
+                                                 .camera = &s->cameras[0], .light = &s->light, .width = SIZE, .height = SIZE});
     assert_int_equal(kernel_job_tiles(job), TILES);
     assert_int_equal(lrb_ctx_create(append, &into, &c, NULL), BASE_OK);
     for (uint32_t i = 0; i < TILES; i++) {
@@ -48,7 +50,7 @@ static void record(const kernel_info *kernel, const scene *s, recording tiles[TI
     }
     lrb_ctx_destroy(&c);
     kernel_job_destroy(&job);
-    bvh_destroy(&tree);
+    trace_trees_destroy(&trees);
 }
 
 static void compare(const kernel_info *kernel, const scene *s, const char *machine_name)

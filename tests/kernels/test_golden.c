@@ -27,8 +27,6 @@ typedef struct golden {
     int count;
 } golden;
 
-static const char *kernel_names[2] = {"packet16-primary", "mft-primary"};
-
 static uint64_t ops_of_kind(const trace_picture *p, lrb_op_kind kind)
 {
     uint64_t sum = 0;
@@ -58,18 +56,19 @@ static void add_line(golden *g, const char *scene_name, const kernel_info *kerne
 static golden golden_trace(void)
 {
     static golden g;
-    size_t scenes;
+    size_t scenes, kernels;
+    const kernel_info *kernel_table = kernel_list(&kernels);
     const char *const *spec = scene_builtin_usual(&scenes);
     g.count = 0;
     for (size_t i = 0; i < scenes; i++) {
         scene *s = NULL;
         assert_int_equal(scene_open(spec[i], &s, NULL), BASE_OK);
-        for (int k = 0; k < 2; k++) {
-            const kernel_info *kernel = kernel_find(kernel_names[k]);
-            bvh *tree = trace_tree(s, kernel->defaults.max_leaf);
+        for (size_t k = 0; k < kernels; k++) {
+            const kernel_info *kernel = &kernel_table[k];
+            trace_trees trees = trace_trees_of(kernel, s, &s->cameras[0]);
             for (unsigned cull = 0; cull < 2; cull++) {
-                trace_request request = {.kernel = kernel->name, .tree = tree, .camera = &s->cameras[0], .width = SIZE,
-                                         .height = SIZE, .cull = cull, .level = LRB_RECORD, .jobs = 2};
+                trace_request request = {.kernel = kernel->name, .tree = trees.tree, .kdtree = trees.kdtree, .camera = &s->cameras[0], .width = SIZE,
+                                         .height = SIZE, .cull = cull, .light = &s->light, .level = LRB_RECORD, .jobs = 2};
                 trace_picture record = trace_run(&request);
                 request.level = LRB_NATIVE;
                 trace_picture native = trace_run(&request);
@@ -79,7 +78,7 @@ static golden golden_trace(void)
                 trace_free(&record);
                 trace_free(&native);
             }
-            bvh_destroy(&tree);
+            trace_trees_destroy(&trees);
         }
         scene_destroy(&s);
     }

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/job_shadow.h"
 #include "lrbni/base/hash.h"
 #include "lrbni/base/parallel.h"
 
@@ -95,7 +96,7 @@ static void gather_worker(trace_picture *picture, const trace_worker *w, int lev
     picture->events += w->events;
 }
 
-static trace_picture picture_create(unsigned width, unsigned height)
+trace_picture trace_picture_create(unsigned width, unsigned height)
 {
     trace_picture p = {.width = width, .height = height, .pixels = (size_t)width * height};
     p.id = calloc(p.pixels, sizeof *p.id);
@@ -108,7 +109,7 @@ static trace_picture picture_create(unsigned width, unsigned height)
     return p;
 }
 
-static kernel_job *job_create(const trace_request *request)
+kernel_job *trace_job(const trace_request *request)
 {
     const kernel_info *kernel = kernel_find(request->kernel);
     base_error err = {0};
@@ -116,15 +117,19 @@ static kernel_job *job_create(const trace_request *request)
     assert_non_null(kernel);
     kernel_params params = request->params ? *request->params : kernel->defaults;
     params.cull_backface = request->cull;
-    if (kernel_job_create(request->tree, request->camera, request->light, request->width, request->height, &params, &job, &err) != BASE_OK)
+    base_status status =
+        kernel->accel == KERNEL_ACCEL_KDTREE
+            ? kernel_job_create_kdtree(request->kdtree, request->camera, request->light, request->width, request->height, &params, &job, &err)
+            : kernel_job_create(request->tree, request->camera, request->light, request->width, request->height, &params, &job, &err);
+    if (status != BASE_OK)
         fail_msg("%s: %s", err.what, err.why);
     return job;
 }
 
 trace_picture trace_run(const trace_request *request)
 {
-    trace_picture picture = picture_create(request->width, request->height);
-    kernel_job *job = job_create(request);
+    trace_picture picture = trace_picture_create(request->width, request->height);
+    kernel_job *job = trace_job(request);
     trace_run_state r = {.request = request, .job = job, .tile = kernel_find(request->kernel)->tile[request->level]};
     r.workers = calloc(request->jobs, sizeof *r.workers);
     r.tile_hashes = calloc(kernel_job_tiles(job), sizeof *r.tile_hashes);
@@ -167,10 +172,39 @@ bvh *trace_tree(const scene *s, unsigned max_leaf)
     return tree;
 }
 
+kdtree *trace_kdtree(const scene *s, const scene_camera *camera)
+{
+    kdtree_options options = kdtree_options_default();
+    const scene_primary_rays rays = scene_camera_rays(camera, 1, 1);
+    base_error err = {0};
+    kdtree *tree = NULL;
+    options.jobs = 2;
+    if (kdtree_build(s, &options, &tree, &err) != BASE_OK)
+        fail_msg("%s: %s", err.what, err.why);
+    assert_int_equal(kdtree_mark_occluders(tree, &rays.origin, 1, NULL), BASE_OK);
+    return tree;
+}
+
+trace_trees trace_trees_of(const kernel_info *kernel, const scene *s, const scene_camera *camera)
+{
+    trace_trees t = {0};
+    if (kernel->accel == KERNEL_ACCEL_KDTREE)
+        t.kdtree = trace_kdtree(s, camera);
+    else
+        t.tree = trace_tree(s, kernel->defaults.max_leaf);
+    return t;
+}
+
+void trace_trees_destroy(trace_trees *t)
+{
+    bvh_destroy(&t->tree);
+    kdtree_destroy(&t->kdtree);
+}
+
 void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, oracle_ray *rays)
 {
     trace_request request = {.kernel = "packet16-primary", .tree = tree, .camera = camera, .width = width, .height = height};
-    kernel_job *job = job_create(&request);
+    kernel_job *job = trace_job(&request);
     for (unsigned y = 0; y < height; y++)
         for (unsigned x = 0; x < width; x++) {
             oracle_ray *ray = &rays[(size_t)y * width + x];
@@ -179,6 +213,33 @@ void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, uns
             ray->tmin = 0.0f;
             ray->tmax = INFINITY;
         }
+    kernel_job_destroy(&job);
+}
+
+void trace_shadow_rays(const trace_request *request, const trace_picture *picture, unsigned pass, oracle_ray *rays, uint32_t *taken)
+{
+    kernel_job *job = trace_job(request);
+    const job_light *light = &job->constants_host->light;
+    memset(rays, 0, 16 * picture->pixels * sizeof *rays);
+    for (size_t i = 0; i < picture->pixels; i++) {
+        unsigned x = (unsigned)(i % picture->width), y = (unsigned)(i / picture->width);
+        job_pixel p = kernel_job_pixel(job, x, y);
+        job->frame_host[p.tile].id[p.block][p.pixel] = picture->id[i];
+        job->frame_host[p.tile].t[p.block][p.pixel] = picture->t[i];
+        taken[i] = job->sample_mask;
+        for (unsigned sample = 0; sample < 16; sample++) {
+            job_shadow_ray ray;
+            if (!job_shadow_ray_of(job, x, y, pass, sample, &ray)) {
+                taken[i] = 0;
+                break;
+            }
+            oracle_ray *out = &rays[16 * i + sample];
+            memcpy(out->org, ray.org, sizeof out->org);
+            memcpy(out->dir, ray.dir, sizeof out->dir);
+            out->tmin = light->nearest;
+            out->tmax = light->farthest;
+        }
+    }
     kernel_job_destroy(&job);
 }
 

@@ -25,7 +25,8 @@ typedef struct trace_picture {
 /* What to trace; the caller owns what is pointed to. */
 typedef struct trace_request {
     const char *kernel; /* name in the registry */
-    const bvh *tree;
+    const bvh *tree;       /* of kernels that traverse one, or ... */
+    const kdtree *kdtree;  /* ... of those that traverse this */
     const scene_camera *camera;
     unsigned width, height;
     unsigned cull; /* parameter cull_backface */
@@ -38,14 +39,43 @@ typedef struct trace_request {
 /** Trace all tiles; free the result with trace_free. Any failure fails the running test. */
 trace_picture trace_run(const trace_request *request);
 
+/** A picture of zeros; free it with trace_free. Running out of memory fails the running test. */
+trace_picture trace_picture_create(unsigned width, unsigned height);
+
 /** Free what a picture holds. */
 void trace_free(trace_picture *picture);
 
 /** The tree with a leaf limit; free it with bvh_destroy. Any failure fails the running test. */
 bvh *trace_tree(const scene *s, unsigned max_leaf);
 
+/** The kd-tree of a scene with a kernel's default parameters, its occluders marked for the camera; free it with kdtree_destroy. */
+kdtree *trace_kdtree(const scene *s, const scene_camera *camera);
+
+/* The tree that a kernel traverses; the other is NULL. */
+typedef struct trace_trees {
+    bvh *tree;
+    kdtree *kdtree;
+} trace_trees;
+
+/** A kernel's tree with its default parameters; free it with trace_trees_destroy. Any failure fails the running test. */
+trace_trees trace_trees_of(const kernel_info *kernel, const scene *s, const scene_camera *camera);
+
+void trace_trees_destroy(trace_trees *trees);
+
+/** A job of the kernel on the tree it traverses, as trace_run makes it; free it with kernel_job_destroy. */
+kernel_job *trace_job(const trace_request *request);
+
 /** The primary rays of a picture, the bits that kernels trace: width * height of them, row by row. */
 void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, oracle_ray *rays);
+
+/**
+ * A picture's shadow rays of one pass, the bits that kernels trace: 16 a pixel, row by row.
+ *
+ * @param request  what was traced
+ * @param rays     out, 16 * width * height; those of a pixel that traces none are 0
+ * @param taken    out, width * height: the samples that are traced, as bits
+ */
+void trace_shadow_rays(const trace_request *request, const trace_picture *picture, unsigned pass, oracle_ray *rays, uint32_t *taken);
 
 /** One pixel's result as the oracles give theirs. */
 oracle_hit trace_hit(const trace_picture *picture, size_t pixel);

@@ -1,0 +1,32 @@
+/* Kernels over one scene, every ray of theirs on trial. */
+#ifndef CLI_SUITES_STABILITY_TRIAL_H
+#define CLI_SUITES_STABILITY_TRIAL_H
+
+#include "cli/suites/stability_tally.h"
+
+enum { STABILITY_MAX_KERNELS = 64 };
+
+/* The kernels that a report is about. */
+typedef struct stability_kernels {
+    const kernel_info *list[STABILITY_MAX_KERNELS];
+    size_t count;
+} stability_kernels;
+
+/* What to try. */
+typedef struct stability_input {
+    const scene *scene;
+    const scene_camera *camera; /* one of the scene's, the first */
+    const sim_machine *machine;
+    const stability_kernels *kernels;
+    unsigned width, height;
+    bool cull;
+    unsigned jobs;
+} stability_input;
+
+/** Called for each kernel and pixel, from the thread with number `worker`. */
+typedef void stability_ray_fn(void *user, size_t kernel, size_t pixel, unsigned worker, const trial_ray *ray, const trial_finding *finding);
+
+/** Run all kernels over the scene and judge all their rays, which are the same for all. Errors: those of run_kernel, BASE_ERR_NOMEM. */
+base_status stability_try(const stability_input *input, stability_ray_fn *take, void *user, base_error *err);
+
+#endif
