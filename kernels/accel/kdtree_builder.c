@@ -143,7 +143,7 @@ static base_status split_wide(builder *b, const kdtree_span *span, kdtree_split 
     *out = kdtree_split_empty(&b->rules, &span->cell, &around);
     if (out->axis >= 0)
         return BASE_OK;
-    status = kdtree_split_covered(&b->rules, &span->cell, span->refs, span->count, out, err);
+    status = kdtree_split_covered(&b->rules, &span->cell, span->refs, span->count, &b->bounds[0], out, err);
     for (int axis = 0; status == BASE_OK && axis < 3; axis++)
         status = kdtree_bounds_reserve(&b->bounds[axis], span->count, err);
     if (status != BASE_OK || out->axis >= 0)

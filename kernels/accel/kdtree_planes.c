@@ -79,21 +79,33 @@ static base_status collect_flat(const kdtree_ref *refs, size_t count, int axis, 
     return BASE_OK;
 }
 
+static base_status sort_bounds(kdtree_bounds *bounds, const kdtree_ref *refs, size_t count, int axis, base_error *err)
+{
+    base_status status = kdtree_bounds_reserve(bounds, count, err);
+    for (int side = 0; status == BASE_OK && side < 2; side++)
+        kdtree_bounds_sort(bounds, side, refs, count, axis);
+    return status;
+}
+
 /* The best covered plane across one axis, if it is better than *best. */
 static base_status covered_on_axis(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_ref *refs, size_t count,
-                                   int axis, kdtree_split *best, base_error *err)
+                                   int axis, kdtree_bounds *bounds, kdtree_split *best, base_error *err)
 {
     flat_ref *flat;
     size_t flat_count;
+    bool sorted = false;
     base_status status = collect_flat(refs, count, axis, &flat, &flat_count, err);
     for (size_t first = 0, end; status == BASE_OK && first < flat_count; first = end) {
         bool covered;
         for (end = first + 1; end < flat_count && flat[end].plane == flat[first].plane; end++)
             ;
         status = section_covered(rules->triangles, cell, axis, refs, flat + first, end - first, &covered, err);
+        if (status == BASE_OK && covered && !sorted)
+            status = sort_bounds(bounds, refs, count, axis, err);
+        sorted |= covered;
         if (status != BASE_OK || !covered)
             continue;
-        kdtree_split split = kdtree_split_at_plane(cell, refs, count, axis, flat[first].plane);
+        kdtree_split split = kdtree_split_at_plane(cell, bounds, count, axis, flat[first].plane);
         if (best->axis < 0 || split.cost < best->cost)
             *best = split;
     }
@@ -102,13 +114,13 @@ static base_status covered_on_axis(const kdtree_rules *rules, const kdtree_cell 
 }
 
 base_status kdtree_split_covered(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_ref *refs, size_t count,
-                                 kdtree_split *out, base_error *err)
+                                 kdtree_bounds *bounds, kdtree_split *out, base_error *err)
 {
     base_status status = BASE_OK;
     *out = (kdtree_split){.axis = -1};
     for (int axis = 0; rules->covered_planes && status == BASE_OK && axis < 3; axis++)
         if (kdtree_cell_length(cell, axis) > 0.0)
-            status = covered_on_axis(rules, cell, refs, count, axis, out, err);
+            status = covered_on_axis(rules, cell, refs, count, axis, bounds, out, err);
     return status;
 }
 

@@ -176,16 +176,28 @@ static kdtree_split split_at(const surfaces *s, int axis, float plane, size_t be
     return (kdtree_split){axis, plane, flat_above, cost};
 }
 
-kdtree_split kdtree_split_at_plane(const kdtree_cell *cell, const kdtree_ref *refs, size_t count, int axis, float plane)
+/* How many of the sorted keys are less than this one. */
+static size_t keys_below(const uint32_t *keys, size_t count, uint64_t key)
+{
+    size_t first = 0;
+    while (count > 0) {
+        size_t half = count / 2;
+        if (keys[first + half] < key) {
+            first += half + 1;
+            count -= half + 1;
+        } else
+            count = half;
+    }
+    return first;
+}
+
+kdtree_split kdtree_split_at_plane(const kdtree_cell *cell, const kdtree_bounds *bounds, size_t count, int axis, float plane)
 {
     surfaces s = surfaces_of(cell, axis);
-    size_t below = 0, above = 0, flat = 0;
+    uint64_t key = key_of(plane);
     double smaller;
-    for (size_t i = 0; i < count; i++) {
-        below += refs[i].box.min[axis] < plane;
-        above += refs[i].box.max[axis] > plane;
-        flat += refs[i].box.min[axis] == plane && refs[i].box.max[axis] == plane;
-    }
+    size_t below = keys_below(bounds->low, count, key), above = count - keys_below(bounds->high, count, key + 1);
+    size_t flat = keys_below(bounds->flat, bounds->flat_count, key + 1) - keys_below(bounds->flat, bounds->flat_count, key);
     return split_at(&s, axis, plane, below, above, flat, &smaller);
 }
 

@@ -58,10 +58,12 @@ kdtree_split kdtree_split_empty(const kdtree_rules *rules, const kdtree_cell *ce
  * the one of least cost, then of the lowest axis, then the lowest. Those triangles go to the child of smaller surface, of equal
  * ones to the lower: on a face that is a flat one.
  *
+ * @param bounds  scratch
+ *
  * Errors: BASE_ERR_NOMEM.
  */
 base_status kdtree_split_covered(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_ref *refs, size_t count,
-                                 kdtree_split *out, base_error *err);
+                                 kdtree_bounds *bounds, kdtree_split *out, base_error *err);
 
 /** Rule 3 on one axis: the plane of least cost inside the cell, of equal ones the lowest. `bounds` are sorted. */
 kdtree_split kdtree_split_cheapest(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_bounds *bounds, size_t count,
@@ -70,8 +72,8 @@ kdtree_split kdtree_split_cheapest(const kdtree_rules *rules, const kdtree_cell 
 /** The cheapest of three axes, of equal ones the lowest; none if not to split costs no more. */
 kdtree_split kdtree_split_best(const kdtree_rules *rules, const kdtree_cell *cell, const kdtree_split axes[3], size_t count);
 
-/** The cut at one plane, with its cost; the triangles in it are where rule 2 wants them. */
-kdtree_split kdtree_split_at_plane(const kdtree_cell *cell, const kdtree_ref *refs, size_t count, int axis, float plane);
+/** The cut at one plane, with its cost; the triangles in it are where rule 2 wants them. `bounds` are sorted. */
+kdtree_split kdtree_split_at_plane(const kdtree_cell *cell, const kdtree_bounds *bounds, size_t count, int axis, float plane);
 
 /** The box around references; of none (+inf, -inf). */
 kdtree_cell kdtree_refs_around(const kdtree_ref *refs, size_t count);

@@ -77,7 +77,7 @@ base_status kdtree_span_split(const kdtree_rules *rules, unsigned max_depth, con
     *out = kdtree_split_empty(rules, &span->cell, &around);
     if (out->axis >= 0)
         return BASE_OK;
-    base_status status = kdtree_split_covered(rules, &span->cell, span->refs, span->count, out, err);
+    base_status status = kdtree_split_covered(rules, &span->cell, span->refs, span->count, bounds, out, err);
     if (status != BASE_OK || out->axis >= 0)
         return status;
     status = kdtree_bounds_reserve(bounds, span->count, err);

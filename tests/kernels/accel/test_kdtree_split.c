@@ -312,6 +312,7 @@ static void planes__wall_with_a_hole_or_two_on_one_side__not_covered(void **stat
     put_wall(&s.triangles[4], 1, 1.5f, 0, 0, 3, 4); /* 3/4 of the section, twice */
     put_wall(&s.triangles[6], 1, 1.5f, 0, 0, 3, 4);
     kdtree_split split;
+    kdtree_bounds bounds = {0};
     kdtree_ref refs[8];
     kdtree_cell cell = {{0, 0, 0}, {4, 4, 4}};
     for (uint32_t i = 0; i < 8; i++) {
@@ -321,15 +322,16 @@ static void planes__wall_with_a_hole_or_two_on_one_side__not_covered(void **stat
             refs[i].box = (kdtree_cell){{0, 1.5f, 0}, {4, 1.5f, 3}};
     }
     const kdtree_rules rules = {.triangles = s.triangles, .covered_planes = true};
-    assert_int_equal(kdtree_split_covered(&rules, &cell, refs, 8, &split, NULL), BASE_OK);
+    assert_int_equal(kdtree_split_covered(&rules, &cell, refs, 8, &bounds, &split, NULL), BASE_OK);
     assert_int_equal(split.axis, -1);
     put_wall(&s.triangles[6], 1, 1.5f, 3, 0, 4, 4); /* the rest of it */
     refs[6].box = refs[7].box = (kdtree_cell){{0, 1.5f, 3}, {4, 1.5f, 4}};
-    assert_int_equal(kdtree_split_covered(&rules, &cell, refs, 8, &split, NULL), BASE_OK);
+    assert_int_equal(kdtree_split_covered(&rules, &cell, refs, 8, &bounds, &split, NULL), BASE_OK);
     assert_true(split.axis == 1 && split.plane == 1.5f && !split.flat_above);
     const kdtree_rules off = {.triangles = s.triangles, .covered_planes = false};
-    assert_int_equal(kdtree_split_covered(&off, &cell, refs, 8, &split, NULL), BASE_OK);
+    assert_int_equal(kdtree_split_covered(&off, &cell, refs, 8, &bounds, &split, NULL), BASE_OK);
     assert_int_equal(split.axis, -1);
+    kdtree_bounds_free(&bounds);
     soup_free(&s);
 }
 
@@ -348,15 +350,37 @@ static void planes__on_a_face__flat_child_takes_them(void **state)
         const kdtree_cell cell = {{0, 0, 0}, {4, 4, 4}};
         const kdtree_rules rules = {.triangles = s.triangles, .covered_planes = true};
         kdtree_split split;
+        kdtree_bounds bounds = {0};
         kdtree_ref below[3], above[3];
         size_t counts[2];
-        assert_int_equal(kdtree_split_covered(&rules, &cell, refs, 3, &split, NULL), BASE_OK);
+        assert_int_equal(kdtree_split_covered(&rules, &cell, refs, 3, &bounds, &split, NULL), BASE_OK);
         assert_true(split.axis == 2 && split.plane == (side ? 4.0f : 0.0f));
         kdtree_refs_divide(&rules, &cell, &split, refs, 3, below, above, counts);
         assert_int_equal(counts[side], 2);
         assert_int_equal(counts[1 - side], 1);
+        kdtree_bounds_free(&bounds);
         soup_free(&s);
     }
+}
+
+/* Every plane is covered: each is weighed at each level, in little more than constant time. */
+static void planes__stack_of_sheets__each_in_a_flat_cell(void **state)
+{
+    enum { SHEETS = 20000 };
+    scene s = soup_create("stack", 2 * SHEETS);
+    kdtree_options options = kdtree_options_default();
+    kdtree *tree = NULL;
+    (void)state;
+    options.min_area = 0;
+    for (int i = 0; i < SHEETS; i++)
+        put_wall(&s.triangles[2 * i], 1, (float)i / 1024.0f, 0, 0, 4, 4);
+    assert_int_equal(kdtree_build(&s, &options, &tree, NULL), BASE_OK);
+    kdtree_check(&s, tree, &options);
+    assert_int_equal(tree->covered_count, SHEETS);
+    assert_int_equal(tree->list_count, 2 * SHEETS);
+    assert_in_range(tree->depth, 14, 48);
+    kdtree_destroy(&tree);
+    soup_free(&s);
 }
 
 static void planes__all_in_one__the_root_is_flat(void **state)
@@ -389,6 +413,7 @@ int main(void)
         cmocka_unit_test(planes__two_halves_of_a_wall_with_overlap__covered),
         cmocka_unit_test(planes__wall_with_a_hole_or_two_on_one_side__not_covered),
         cmocka_unit_test(planes__on_a_face__flat_child_takes_them),
+        cmocka_unit_test(planes__stack_of_sheets__each_in_a_flat_cell),
         cmocka_unit_test(planes__all_in_one__the_root_is_flat),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
