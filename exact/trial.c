@@ -13,7 +13,7 @@ static const double FILTER_ULP = TRIAL_EDGE_ULP + 1.0;
 /* Bound on the rounding of a determinant of three vectors in double, relative to the product of their lengths. */
 static const double DETERMINANT_ERROR = 0x1p-49;
 
-/* Below this share of that product the origin may lie in the plane, and the filter keeps away. */
+/* Within this share of the farthest vertex's distance the origin may lie in the plane, and the filter keeps away. */
 static const double FLAT = 0x1p-18;
 
 /* A triangle as the filter sees it, in double, relative to the origin. */
@@ -100,7 +100,7 @@ static bool hit_by_none(const scene_triangle *t, double v[3][3])
 static seen see(const scene_triangle *t, const float origin[3])
 {
     seen s = {0};
-    double v[3][3], size[3];
+    double v[3][3], e[3], f[3], normal[3], size[3];
     relative(t, origin, v);
     s.none = hit_by_none(t, v);
     for (int i = 0; i < 3; i++)
@@ -111,7 +111,9 @@ static seen see(const scene_triangle *t, const float origin[3])
         s.sure[i] = FILTER_ULP * 0x1p-23 * length(s.edge[i]) + DETERMINANT_ERROR * size[from] * size[to];
     }
     const double volume = dot(s.edge[0], v[0]);
-    s.known = !s.none && fabs(volume) > FLAT * size[0] * size[1] * size[2];
+    plane_of(v, e, f, normal);
+    s.known = !s.none && fabs(volume) > FLAT * length(normal) * fmax(size[0], fmax(size[1], size[2])) &&
+              fabs(volume) > DETERMINANT_ERROR * size[0] * size[1] * size[2];
     for (int i = 0; i < 3 && volume < 0; i++)
         for (int k = 0; k < 3; k++)
             s.edge[i][k] = -s.edge[i][k];

@@ -101,7 +101,7 @@ const suite_info suite_stability = {
     .about = "Every ray is also traced in rational arithmetic over all triangles, with the very floats that the kernels get. A hit is lost if a "
              "triangle is hit off its edges and the kernel found nothing, or only something behind it; wrong if the ray misses what it found. Off "
              "its edges: by more than 4 units of 2^-23 as an angle. docs/accuracy.md has the definitions.",
-    .size = 64,
+    .size = 32,
     .takes = SUITE_TAKES_KERNELS,
     .measure = measure,
 };

@@ -12,7 +12,7 @@ enum { MAX_POINTS = 16, QUANTITIES = 5 };
 /* What is known of a kernel at a point of a curve. */
 enum { MEDIAN_T, MOST_T, WORST_T, WORST_PLANE, SCENE_T };
 static const char *const quantity_names[QUANTITIES] = {"median error of t", "99th percentile", "worst error of t",
-                                                       "worst plane [2^-24 of the distance]", "what rounding the scene to float does to t (median)"};
+                                                       "worst plane [2^-24]", "rounding of the scene"};
 
 /* A curve: scenes that depend on one number. */
 typedef struct curve {

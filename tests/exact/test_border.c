@@ -75,7 +75,7 @@ static void border__rays_that_hit__least_of_the_margins(void **state)
             continue;
         exact_edge_margins_ulp(origin, dir, v[0], v[1], v[2], margin);
         hits++;
-        double least = INFINITY, border = exact_border_ulp(origin, dir, v[0], v[1], v[2]);
+        double least = (double)INFINITY, border = exact_border_ulp(origin, dir, v[0], v[1], v[2]);
         for (int k = 0; k < 3; k++) { /* the margins' unit grows where a vertex is near and another coordinate large */
             double a = 0, b = 0, most = 0;
             for (int j = 0; j < 3; j++) {
