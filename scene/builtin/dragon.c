@@ -6,7 +6,7 @@
 #include "scene/builtin/skin.h"
 
 #define COUNT_OF(a) (sizeof(a) / sizeof *(a))
-#define CELL 0.00243 /* of the figure's skin [m] */
+#define CELL 0.002422 /* of the figure's skin [m] */
 
 /* The height of overlapping scales, 0 to 1, in a lattice of unit cells; u runs from a scale's root to its tip. */
 static double scale_pattern(double u, double v)
@@ -31,12 +31,12 @@ static double body_relief(const scene_skin_place *p)
     double scales = 0.0085 * size * scale_pattern(p->along / 0.030, around * 9.0);
     scene_direction(p->along / 0.055, &c, &s);
     double plates = 0.007 * size * (0.5 + 0.5 * c);
-    return scales * (1.0 - below) + plates * below;
+    return scales * (1.0 - below) + plates * below - 0.0035;
 }
 
 static double limb_relief(const scene_skin_place *p)
 {
-    return 0.05 * p->radius * scale_pattern(p->along / 0.022, scene_skin_around(p->out) * 5.0);
+    return 0.05 * p->radius * (scale_pattern(p->along / 0.022, scene_skin_around(p->out) * 5.0) - 0.42);
 }
 
 /* Strands that run along a lock of hair, a fin, a flame. */
@@ -44,7 +44,7 @@ static double hair_relief(const scene_skin_place *p)
 {
     double c, s;
     scene_direction(scene_skin_around(p->out) * 1.5 + 0.8 * p->share, &c, &s);
-    return p->radius * 0.16 * c;
+    return p->radius * 0.12 * c;
 }
 
 static double horn_relief(const scene_skin_place *p)
@@ -56,7 +56,7 @@ static double horn_relief(const scene_skin_place *p)
 
 static double face_relief(const scene_skin_place *p)
 {
-    return 0.005 * scene_noise_sum(scene_point_scale(p->at, 28.0), 4);
+    return 0.0035 * scene_noise_sum(scene_point_scale(p->at, 28.0), 3);
 }
 
 static double rock_relief(const scene_skin_place *p)
@@ -143,7 +143,7 @@ static void add_mane(figure *f, scene_mesh *m)
         lock[1] = (scene_joint){scene_at(x - 0.35 * length, y + 0.06 + 0.2 * lift, z + side * 0.10 * s), 0.044};
         lock[2] = (scene_joint){scene_at(x - 0.75 * length, y + 0.02 + 0.4 * lift, z + side * 0.22 * s), 0.030};
         lock[3] = (scene_joint){scene_at(x - length, y + 0.10 + 0.6 * lift, z + side * 0.20 * s), 0.005};
-        add(f, lock, 4, 1.0, 0.02, hair_relief, 0.009);
+        add(f, lock, 4, 1.0, 0.02, hair_relief, 0.006);
     }
 }
 
@@ -161,7 +161,7 @@ static void add_foot(figure *f, int n)
         f->toe[n][k][2] = (scene_joint){tip, 0.026};
         f->claw[n][k][0] = (scene_joint){tip, 0.020};
         f->claw[n][k][1] = (scene_joint){scene_at(tip.x + 0.07 * c, tip.y - 0.05, tip.z + 0.07 * s), 0.003};
-        add(f, f->toe[n][k], 3, 1.0, 0.03, limb_relief, 0.003);
+        add(f, f->toe[n][k], 3, 1.0, 0.03, limb_relief, 0.0035);
         add(f, f->claw[n][k], 2, 1.0, 0.012, NULL, 0);
     }
 }
@@ -175,28 +175,28 @@ static void add_flames(figure *f, scene_mesh *m)
         f->flame[i][0] = (scene_joint){at, 0.05};
         f->flame[i][1] = (scene_joint){scene_at(at.x - 0.16, at.y + 0.5 * rise, at.z + sweep), 0.042};
         f->flame[i][2] = (scene_joint){scene_at(at.x - 0.34, at.y + rise + 0.06, at.z + 0.5 * sweep), 0.004};
-        add(f, f->flame[i], 3, 0.6, 0.03, hair_relief, 0.009);
+        add(f, f->flame[i], 3, 0.6, 0.02, hair_relief, 0.006);
     }
 }
 
 static void assemble(figure *f, scene_mesh *m)
 {
-    add(f, body, COUNT_OF(body), 1.0, 0.05, body_relief, 0.009);
-    add(f, skull, COUNT_OF(skull), 0.95, 0.05, face_relief, 0.012);
-    add(f, jaw, COUNT_OF(jaw), 1.15, 0.04, face_relief, 0.012);
+    add(f, body, COUNT_OF(body), 1.0, 0.02, body_relief, 0.004);
+    add(f, skull, COUNT_OF(skull), 0.95, 0.035, face_relief, 0.0062);
+    add(f, jaw, COUNT_OF(jaw), 1.15, 0.03, face_relief, 0.0062);
     add(f, gape, COUNT_OF(gape), 1.7, 0.02, NULL, 0);
     f->limbs[f->count - 1].carved = 1;
-    add(f, tongue, COUNT_OF(tongue), 1.4, 0.02, face_relief, 0.012);
+    add(f, tongue, COUNT_OF(tongue), 1.4, 0.02, face_relief, 0.0062);
     for (int i = 0; i < PAIRS; i++) {
         for (int k = 0; k < PAIR_JOINTS; k++)
             f->mirror[i][k] = mirrored(face[i][k]);
         for (int side = 0; side < 2; side++)
-            add(f, side ? f->mirror[i] : face[i], PAIR_JOINTS, 1.0, i == 0 || i == 3 ? 0.02 : 0.04, i == 0 ? horn_relief
+            add(f, side ? f->mirror[i] : face[i], PAIR_JOINTS, 1.0, i == 0 || i == 3 ? 0.02 : 0.03, i == 0 ? horn_relief
                 : face_relief,
-                0.012);
+                0.0062);
     }
     for (int i = 0; i < LEGS; i++) {
-        add(f, leg[i], 4, 1.0, 0.05, limb_relief, 0.009);
+        add(f, leg[i], 4, 1.0, 0.035, limb_relief, 0.0035);
         add_foot(f, i);
     }
     add_spines(f);

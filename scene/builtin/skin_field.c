@@ -78,7 +78,6 @@ int skin_field_begin(skin_field *f, const scene_limb *limbs, size_t count)
     for (size_t i = 0; i < count; i++) {
         double along = 0;
         size_t first = f->count;
-        f->blend = fmax(f->blend, limbs[i].blend);
         f->relief = fmax(f->relief, limbs[i].relief_most);
         size_t n = pieces_of(&limbs[i]);
         for (size_t k = 0; k < (limbs[i].count - 1) * n; k++) {
@@ -200,8 +199,10 @@ size_t skin_field_near(const skin_field *f, const skin_bone *const *from, size_t
 {
     /* Within reach the field and a limb's distance each change by reach * slope + relief. Far limbs melt to at most one blend
      * below the nearest of them, and stop mattering one blend above a near one, itself at most one above the field. */
-    double relief = skin_field_relief(from, count);
-    double margin = fabs(skin_field_rough(f, from, count, p)) + 2.0 * (reach * f->slope + relief) + 3.0 * f->blend;
+    double relief = skin_field_relief(from, count), blend = 0;
+    for (size_t i = 0; i < count; i++)
+        blend = from[i]->limb->blend > blend ? from[i]->limb->blend : blend;
+    double margin = fabs(skin_field_rough(f, from, count, p)) + 2.0 * (reach * f->slope + relief) + 3.0 * blend;
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
         double t, d = bone_distance(from[i], limb_space(from[i]->limb, p), &t) * limb_scale(from[i]->limb);

@@ -26,7 +26,6 @@ typedef struct skin_field {
     size_t count;
     double slope;  /* the field without relief changes by at most this per metre */
     double relief; /* the largest relief of any limb */
-    double blend;  /* the largest blend of any limb */
     scene_point low, high; /* nothing of the body lies outside */
 } skin_field;
 
