@@ -127,7 +127,8 @@ int command_scenes(int argc, char **argv)
         report_table_add_text(t, scenes[i].summary);
     }
     report_table_add_note(t, "Made by code from a fixed seed. A scene has the published scene's number of triangles, rounded as the paper "
-                             "prints it, and differs from it in everything else.");
+                             "prints it (dragon-7m: those of the scan, where the paper prints 7M), and differs from it in everything "
+                             "else.");
     return write_list(t, a.json, &err);
 }
 

@@ -22,7 +22,7 @@ typedef struct suite {
 
 static const suite suites[] = {
     {"mft-primary", {"packet16-primary", "mft-primary"}, 256},
-    {"mft-soft", {"packet16-soft", "mft-soft"}, 64},
+    {"mft-soft", {"packet16-soft", "mft-soft"}, 32},
 };
 enum { SUITES = sizeof suites / sizeof *suites };
 
@@ -56,7 +56,7 @@ static const struct argp argp = {
     option_table, parse, "[SUITE...]",
     "Measure the suites (all, if none is named) and compare every count, op and cycle with the stored baseline.\v"
     "Exit code 1 if anything differs. Suites: mft-primary, mft-soft: packets and frusta on the built-in scenes, on larrabee and knc; "
-    "primary rays at 256x256, soft shadows at 64x64 with every way to shrink frusta.",
+    "primary rays at 256x256, soft shadows at 32x32 with every way to shrink frusta.",
     NULL, NULL, NULL,
 };
 

@@ -19,6 +19,8 @@ static const scene_builtin builtins[] = {
         scene_build_conference},
     {"tower-2195k", "a building of seven storeys with furnished rooms about an open court, seen from a gallery", "Soda Hall", SCENE_TOWER_TRIANGLES,
         scene_build_tower},
+    {"dragon-7m", "a sculpted dragon in coils on a rock, scale by scale", "Asian Dragon", SCENE_DRAGON_TRIANGLES,
+        scene_build_dragon},
 };
 
 const scene_builtin *scene_builtin_list(size_t *count)

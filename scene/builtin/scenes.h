@@ -17,6 +17,7 @@ base_status scene_build_forest(scene *s, base_error *err);
 base_status scene_build_fern(scene *s, base_error *err);
 base_status scene_build_conference(scene *s, base_error *err);
 base_status scene_build_tower(scene *s, base_error *err);
+base_status scene_build_dragon(scene *s, base_error *err);
 
 enum {
     SCENE_ROOMS_TRIANGLES = 804,
@@ -26,7 +27,8 @@ enum {
     SCENE_FOREST_TRIANGLES = 174000,
     SCENE_FERN_TRIANGLES = 212000,
     SCENE_CONFERENCE_TRIANGLES = 282000,
-    SCENE_TOWER_TRIANGLES = 2195000
+    SCENE_TOWER_TRIANGLES = 2195000,
+    SCENE_DRAGON_TRIANGLES = 7218906
 };
 
 #endif

@@ -16,6 +16,7 @@ typedef struct net {
     const void *user;
     const skin_bone **all, **near_block, **near_part; /* field->count of each; all of them, then as many as are near */
     size_t near_block_count;
+    double relief; /* the largest near the block */
     long first[3];                             /* the lattice indices of sample 0 of the block */
     double sample[SAMPLES][SAMPLES][SAMPLES]; /* [z][y][x] */
     scene_point vertex[CELLS][CELLS][CELLS];   /* of the cells that the skin goes through */
@@ -38,13 +39,14 @@ static int sample_part(net *n, int x0, int y0, int z0)
 {
     scene_point middle = lattice_point(n, x0 + (PART - 1) / 2.0, y0 + (PART - 1) / 2.0, z0 + (PART - 1) / 2.0);
     double reach = reach_of(n, PART);
-    double rough = skin_field_at(n->near_block, n->near_block_count, middle, 0);
-    int far = fabs(rough) > reach * n->field->slope + n->field->relief;
+    double rough = skin_field_rough(n->field, n->near_block, n->near_block_count, middle), band = n->cell * n->field->slope;
+    int far = fabs(rough) > reach * n->field->slope + n->relief;
     size_t count = far ? 0 : skin_field_near(n->field, n->near_block, n->near_block_count, middle, reach, n->near_part);
     for (int z = z0; z < z0 + PART; z++)
         for (int y = y0; y < y0 + PART; y++)
             for (int x = x0; x < x0 + PART; x++)
-                n->sample[z][y][x] = far ? rough : skin_field_at(n->near_part, count, lattice_point(n, x, y, z), 1);
+                n->sample[z][y][x] = far ? rough
+                    : skin_field_at(n->field, n->near_part, count, lattice_point(n, x, y, z), band, n->relief);
     return !far;
 }
 
@@ -55,11 +57,15 @@ static double crossing(double a, double b)
     return t < 0.06 ? 0.06 : t > 0.94 ? 0.94 : t;
 }
 
-/* The mean of the points where the skin meets a cell's edges; 0 if it meets none. */
+/* Set a cell's vertex to the mean of the points where the skin meets its edges; 0 if it meets none. */
 static int cell_vertex(net *n, int x, int y, int z)
 {
     double sum[3] = {0, 0, 0};
-    int count = 0;
+    int count = 0, inside = 0;
+    for (int k = 0; k < 8; k++)
+        inside += n->sample[z + (k >> 2)][y + (k >> 1 & 1)][x + (k & 1)] < 0;
+    if (inside == 0 || inside == 8)
+        return 0;
     for (int axis = 0; axis < 3; axis++)
         for (int k = 0; k < 4; k++) {
             int at[3] = {0, 0, 0};
@@ -73,9 +79,8 @@ static int cell_vertex(net *n, int x, int y, int z)
                 sum[i] += i == axis ? crossing(a, b) : at[i];
             count++;
         }
-    if (count)
-        n->vertex[z][y][x] = lattice_point(n, x + sum[0] / count, y + sum[1] / count, z + sum[2] / count);
-    return count;
+    n->vertex[z][y][x] = lattice_point(n, x + sum[0] / count, y + sum[1] / count, z + sum[2] / count);
+    return 1;
 }
 
 static double area2(scene_point a, scene_point b, scene_point c)
@@ -144,9 +149,10 @@ static void draw_blocks(net *n)
         n->first[1] = k / blocks[0] % blocks[1] * BLOCK - 1;
         n->first[2] = k / blocks[0] / blocks[1] * BLOCK - 1;
         scene_point middle = lattice_point(n, (SAMPLES - 1) / 2.0, (SAMPLES - 1) / 2.0, (SAMPLES - 1) / 2.0);
-        if (fabs(skin_field_at(n->all, f->count, middle, 0)) > reach * f->slope + f->relief)
+        if (fabs(skin_field_rough(f, n->all, f->count, middle)) > reach * f->slope + f->relief)
             continue;
         n->near_block_count = skin_field_near(f, n->all, f->count, middle, reach, n->near_block);
+        n->relief = skin_field_relief(n->near_block, n->near_block_count);
         draw_block(n);
     }
 }

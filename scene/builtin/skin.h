@@ -44,6 +44,9 @@ typedef struct scene_limb {
 void scene_skin_draw(scene_mesh *m, const scene_limb *limbs, size_t count, double cell,
     uint32_t (*shade)(const void *user, scene_point at), const void *user);
 
+/** A point of a limb's centre line and its radius there; `at` counts joints from 0 to count - 1. */
+scene_joint scene_limb_point(const scene_limb *limb, double at);
+
 /** A pseudo-angle of a direction about x in [0, 4): 0 towards +y, 1 towards +z; equal on every host. */
 double scene_skin_around(scene_point out);
 

@@ -2,7 +2,11 @@
 
 #include <stdlib.h>
 
-enum { PIECES = 6 }; /* straight pieces of the centre line between two joints */
+/* Straight pieces of the centre line between two joints: where there are only two, it is straight. */
+static size_t pieces_of(const scene_limb *limb)
+{
+    return limb->count == 2 ? 1 : 6;
+}
 
 #define FAR 1e9
 
@@ -12,14 +16,29 @@ static double curve(double a, double b, double c, double d, double t)
     return 0.5 * (2 * b + t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a))));
 }
 
-/* The curve through a limb's joints, between joint `i` and the next, in the limb's own space. */
-static scene_joint centre_line(const scene_limb *limb, size_t i, double t)
+/* The curve through a limb's joints, between joint `i` and the next. */
+static scene_joint between_joints(const scene_limb *limb, size_t i, double t)
 {
     const scene_joint *b = &limb->joints[i], *c = b + 1;
     const scene_joint *a = i > 0 ? b - 1 : b, *d = i + 2 < limb->count ? c + 1 : c;
     scene_joint p = {{curve(a->at.x, b->at.x, c->at.x, d->at.x, t), curve(a->at.y, b->at.y, c->at.y, d->at.y, t),
-        curve(a->at.z, b->at.z, c->at.z, d->at.z, t) / limb->width}, curve(a->radius, b->radius, c->radius, d->radius, t)};
+        curve(a->at.z, b->at.z, c->at.z, d->at.z, t)}, curve(a->radius, b->radius, c->radius, d->radius, t)};
     return p;
+}
+
+/* The same in the limb's own space. */
+static scene_joint centre_line(const scene_limb *limb, size_t i, double t)
+{
+    scene_joint p = between_joints(limb, i, t);
+    p.at.z /= limb->width;
+    return p;
+}
+
+scene_joint scene_limb_point(const scene_limb *limb, double at)
+{
+    size_t last = limb->count - 2, i = at > 0.0 ? (size_t)at : 0;
+    i = i < last ? i : last;
+    return between_joints(limb, i, at - (double)i);
 }
 
 static void extend(double *low, double *high, double at, double by)
@@ -50,19 +69,20 @@ int skin_field_begin(skin_field *f, const scene_limb *limbs, size_t count)
 {
     size_t bones = 0;
     for (size_t i = 0; i < count; i++)
-        bones += (limbs[i].count - 1) * PIECES;
+        bones += (limbs[i].count - 1) * pieces_of(&limbs[i]);
     *f = (skin_field){.slope = 1.0, .low = {FAR, FAR, FAR}, .high = {-FAR, -FAR, -FAR}};
     f->bones = malloc(bones * sizeof *f->bones);
-    if (!f->bones)
+    f->nearest = malloc(count * sizeof *f->nearest);
+    if (!f->bones || !f->nearest)
         return 0;
     for (size_t i = 0; i < count; i++) {
         double along = 0;
         size_t first = f->count;
-        f->blend = fmax(f->blend, limbs[i].blend);
         f->relief = fmax(f->relief, limbs[i].relief_most);
-        for (size_t k = 0; k < (limbs[i].count - 1) * PIECES; k++) {
-            double t0 = (double)(k % PIECES) / PIECES, t1 = (double)(k % PIECES + 1) / PIECES;
-            add_bone(f, &limbs[i], centre_line(&limbs[i], k / PIECES, t0), centre_line(&limbs[i], k / PIECES, t1), along);
+        size_t n = pieces_of(&limbs[i]);
+        for (size_t k = 0; k < (limbs[i].count - 1) * n; k++) {
+            double t0 = (double)(k % n) / (double)n, t1 = (double)(k % n + 1) / (double)n;
+            add_bone(f, &limbs[i], centre_line(&limbs[i], k / n, t0), centre_line(&limbs[i], k / n, t1), along);
             along += f->bones[f->count - 1].length;
         }
         for (size_t k = first; k < f->count; k++)
@@ -74,7 +94,9 @@ int skin_field_begin(skin_field *f, const scene_limb *limbs, size_t count)
 void skin_field_end(skin_field *f)
 {
     free(f->bones);
+    free(f->nearest);
     f->bones = NULL;
+    f->nearest = NULL;
 }
 
 /* Distance from the skin about one bone, in the limb's own space; *t says where along the bone. */
@@ -114,28 +136,62 @@ static double smooth_min(double a, double b, double blend)
     return fmin(a, b) - (h > 0.0 ? h * h / (4.0 * blend) : 0.0);
 }
 
-double skin_field_at(const skin_bone *const *list, size_t count, scene_point p, int with_relief)
+/* The nearest bone of each limb, into f->nearest; the number of limbs. */
+static size_t find_nearest(const skin_field *f, const skin_bone *const *list, size_t count, scene_point p)
 {
-    double field = FAR;
+    size_t limbs = 0;
     for (size_t i = 0; i < count;) {
         const scene_limb *limb = list[i]->limb;
         scene_point q = limb_space(limb, p);
-        const skin_bone *nearest = list[i];
-        double best = FAR, where = 0;
+        skin_nearest best = {list[i], 0, FAR};
         for (; i < count && list[i]->limb == limb; i++) {
             double t, d = bone_distance(list[i], q, &t);
-            if (d < best) {
-                best = d;
-                nearest = list[i];
-                where = t;
-            }
+            if (d < best.distance)
+                best = (skin_nearest){list[i], t, d};
         }
-        best *= limb_scale(limb);
-        if (with_relief && limb->relief)
-            best -= relief_at(nearest, where, p, q);
-        field = limb->carved ? -smooth_min(-field, best, limb->blend) : smooth_min(field, best, limb->blend);
+        best.distance *= limb_scale(limb);
+        f->nearest[limbs++] = best;
+    }
+    return limbs;
+}
+
+/* The limbs in f->nearest put together. */
+static double melt(const skin_field *f, size_t limbs)
+{
+    double field = FAR;
+    for (size_t i = 0; i < limbs; i++) {
+        const scene_limb *limb = f->nearest[i].bone->limb;
+        double d = f->nearest[i].distance;
+        field = limb->carved ? -smooth_min(-field, d, limb->blend) : smooth_min(field, d, limb->blend);
     }
     return field;
+}
+
+double skin_field_rough(const skin_field *f, const skin_bone *const *list, size_t count, scene_point p)
+{
+    return melt(f, find_nearest(f, list, count, p));
+}
+
+double skin_field_at(const skin_field *f, const skin_bone *const *list, size_t count, scene_point p, double band, double relief)
+{
+    size_t limbs = find_nearest(f, list, count, p);
+    double rough = melt(f, limbs);
+    if (fabs(rough) > band + relief)
+        return rough;
+    for (size_t i = 0; i < limbs; i++) {
+        skin_nearest *n = &f->nearest[i];
+        if (n->bone->limb->relief)
+            n->distance -= relief_at(n->bone, n->t, p, limb_space(n->bone->limb, p));
+    }
+    return melt(f, limbs);
+}
+
+double skin_field_relief(const skin_bone *const *list, size_t count)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, list[i]->limb->relief_most);
+    return most;
 }
 
 size_t skin_field_near(const skin_field *f, const skin_bone *const *from, size_t count, scene_point p, double reach,
@@ -143,7 +199,10 @@ size_t skin_field_near(const skin_field *f, const skin_bone *const *from, size_t
 {
     /* Within reach the field and a limb's distance each change by reach * slope + relief. Far limbs melt to at most one blend
      * below the nearest of them, and stop mattering one blend above a near one, itself at most one above the field. */
-    double margin = fabs(skin_field_at(from, count, p, 0)) + 2.0 * (reach * f->slope + f->relief) + 4.0 * f->blend;
+    double relief = skin_field_relief(from, count), blend = 0;
+    for (size_t i = 0; i < count; i++)
+        blend = from[i]->limb->blend > blend ? from[i]->limb->blend : blend;
+    double margin = fabs(skin_field_rough(f, from, count, p)) + 2.0 * (reach * f->slope + relief) + 3.0 * blend;
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
         double t, d = bone_distance(from[i], limb_space(from[i]->limb, p), &t) * limb_scale(from[i]->limb);

@@ -14,12 +14,18 @@ typedef struct skin_bone {
     double limb_length;
 } skin_bone;
 
+/* The bone of a limb that is nearest to a point. */
+typedef struct skin_nearest {
+    const skin_bone *bone;
+    double t, distance; /* where along the bone; of its skin without relief */
+} skin_nearest;
+
 typedef struct skin_field {
     skin_bone *bones; /* owned, in the order of the limbs */
+    skin_nearest *nearest; /* owned, room for one a limb while a field is computed */
     size_t count;
     double slope;  /* the field without relief changes by at most this per metre */
     double relief; /* the largest relief of any limb */
-    double blend;  /* the largest blend of any limb */
     scene_point low, high; /* nothing of the body lies outside */
 } skin_field;
 
@@ -27,8 +33,18 @@ typedef struct skin_field {
 int skin_field_begin(skin_field *f, const scene_limb *limbs, size_t count);
 void skin_field_end(skin_field *f);
 
-/** The field at a point from the bones in `list`, in their order; with the relief or without. */
-double skin_field_at(const skin_bone *const *list, size_t count, scene_point p, int with_relief);
+/** The field at a point from the bones in `list`, in their order, without relief. */
+double skin_field_rough(const skin_field *f, const skin_bone *const *list, size_t count, scene_point p);
+
+/**
+ * The same with relief, if the skin may lie within `band`; beyond, without it, its sign being that with relief.
+ *
+ * @param relief  the largest of the limbs in the list
+ */
+double skin_field_at(const skin_field *f, const skin_bone *const *list, size_t count, scene_point p, double band, double relief);
+
+/** The largest relief of the limbs in a list. */
+double skin_field_relief(const skin_bone *const *list, size_t count);
 
 /**
  * The bones that can matter within `reach` of a point: those in `from`, less the far ones, into `list` (which may be

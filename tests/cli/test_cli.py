@@ -199,8 +199,10 @@ def soft__counts_and_parameters__those_of_shadows(folder):
     assert 'additional_tests' not in packets['counts'] and frusta['counts']['additional_tests'] == 0
     shrinking = stats_of('mft-soft', *SMALL, '--model', 'count', '--param', 'shrink=corner-rays')
     assert shrinking['counts']['additional_tests'] > 0 and shrinking['counts']['isect_tests'] < frusta['counts']['isect_tests']
-    more = stats_of('mft-soft', *SMALL, '--model', 'count', '--samples', '64', '--light-scale', '0.5')
-    assert more['counts']['rays_shadow'] == 64 * units and more['params']['light_scale'] == 0.5
+    more = stats_of('mft-soft', *SMALL, '--model', 'native', '--samples', '64')
+    assert more['counts']['rays_shadow'] == 64 * units and more['params']['samples'] == 64
+    smaller = stats_of('mft-soft', *SMALL, '--model', 'native', '--light-scale', '0.5')
+    assert smaller['params']['light_scale'] == 0.5 and smaller['counts']['isect_tests'] < frusta['counts']['isect_tests']
 
 
 def pictures__all_kinds__written(folder):
