@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/visibility_filter.h"
 #include "reports/heat_map.h"
 #include "reports/image_writer.h"
 
@@ -40,16 +41,27 @@ static double brightness(const run_result *r, uint32_t id, double t, const doubl
     return (double)ambient + (double)headlight * fabs(dot(n, view)) + (1.0 - (double)ambient - (double)headlight) * direct;
 }
 
-/* The fraction of the light that a pixel's hit sees, 1 for kernels without shadows. */
-static double visibility(const kernel_job *job, job_pixel p)
+/* The filtered visibility, or 1 for kernels without shadows; NULL if out of memory. */
+static float *seen_light(const kernel_job *job, base_error *err)
 {
-    return job->shadows_host ? (double)job->shadows_host[p.tile].visibility[p.block][p.pixel] : 1;
+    const size_t pixels = (size_t)job->width * job->height;
+    float *seen = malloc(pixels * sizeof *seen);
+    if (!seen) {
+        base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for %zu pixels", pixels);
+        return NULL;
+    }
+    for (size_t i = 0; i < pixels; i++)
+        seen[i] = 1;
+    if (job->shadows_host)
+        visibility_filter(job, seen);
+    return seen;
 }
 
 base_status picture_shaded(const run_result *r, report_image *out, base_error *err)
 {
     const unsigned width = r->options.width, height = r->options.height;
-    base_status status = report_image_create((int)width, (int)height, 3, out, err);
+    float *seen = seen_light(r->job, err);
+    base_status status = seen ? report_image_create((int)width, (int)height, 3, out, err) : BASE_ERR_NOMEM;
     for (unsigned y = 0; status == BASE_OK && y < height; y++)
         for (unsigned x = 0; x < width; x++) {
             job_pixel p = kernel_job_pixel(r->job, x, y);
@@ -61,17 +73,19 @@ base_status picture_shaded(const run_result *r, report_image *out, base_error *e
             for (int axis = 0; axis < 3; axis++)
                 d[axis] = (double)direction[axis];
             if (id != JOB_NO_HIT)
-                light = brightness(r, id, (double)tile->t[p.block][p.pixel], d, visibility(r->job, p));
+                light = brightness(r, id, (double)tile->t[p.block][p.pixel], d, (double)seen[(size_t)y * width + x]);
             for (int channel = 0; channel < 3; channel++)
                 pixel[channel] = id == JOB_NO_HIT ? background
                                                   : (float)light * r->scene->materials[r->scene->triangle_material[id]].base_color[channel];
         }
+    free(seen);
     return status;
 }
 
 base_status picture_write_aov(const run_result *r, const char *path, base_error *err)
 {
     const size_t width = r->options.width, pixels = width * r->options.height;
+    const bool shadows = r->job->shadows_host != NULL;
     float *planes = malloc(4 * pixels * sizeof *planes);
     uint32_t *prim = malloc(pixels * sizeof *prim);
     base_status status = BASE_ERR_NOMEM;
@@ -84,7 +98,7 @@ base_status picture_write_aov(const run_result *r, const char *path, base_error 
             u[i] = tile->u[p.block][p.pixel];
             v[i] = tile->v[p.block][p.pixel];
             prim[i] = tile->id[p.block][p.pixel];
-            seen[i] = (float)visibility(r->job, p);
+            seen[i] = shadows ? r->job->shadows_host[p.tile].visibility[p.block][p.pixel] : 1;
         }
         const report_channel channels[] = {
             {"Z", REPORT_CHANNEL_FLOAT, z},
@@ -93,7 +107,7 @@ base_status picture_write_aov(const run_result *r, const char *path, base_error 
             {"V", REPORT_CHANNEL_FLOAT, v},
             {"visibility", REPORT_CHANNEL_FLOAT, seen},
         };
-        status = report_aov_write(path, (int)width, (int)r->options.height, channels, r->job->shadows_host ? 5 : 4, err);
+        status = report_aov_write(path, (int)width, (int)r->options.height, channels, shadows ? 5 : 4, err);
     } else {
         base_fail(err, status, path, "out of memory for %zu pixels", pixels);
     }

@@ -7,7 +7,7 @@
 
 /**
  * The scene as the run's rays hit it: base colours, Lambert's law for a point light at the light's centre, times
- * the visibility of kernels with shadows, and a little light from the camera so that nothing is black; what is missed is a pale grey.
+ * the filtered visibility of kernels with shadows, and a little light from the camera so that nothing is black; what is missed is a pale grey.
  *
  * Errors: BASE_ERR_NOMEM.
  */

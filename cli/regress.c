@@ -12,9 +12,19 @@
 #include "lrbni/base/output_file.h"
 #include "scene/builtin.h"
 
-enum { KEY_UPDATE = 256, KEY_BASELINES, KEY_JOBS, PATH_BYTES = 4096, SIZE = 256, FIELD_BYTES = 160 };
+enum { KEY_UPDATE = 256, KEY_BASELINES, KEY_JOBS, PATH_BYTES = 4096, FIELD_BYTES = 160, KERNELS = 2 };
 
-static const char suite_name[] = "mft-primary";
+/* What is measured: kernels on the built-in scenes, size x size pixels. */
+typedef struct suite {
+    const char *name, *kernels[KERNELS];
+    unsigned size;
+} suite;
+
+static const suite suites[] = {
+    {"mft-primary", {"packet16-primary", "mft-primary"}, 256},
+    {"mft-soft", {"packet16-soft", "mft-soft"}, 32},
+};
+enum { SUITES = sizeof suites / sizeof *suites };
 
 static const struct argp_option option_table[] = {
     {"update", KEY_UPDATE, NULL, 0, "store what is measured as the new baseline", 0},
@@ -45,18 +55,19 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp argp = {
     option_table, parse, "[SUITE...]",
     "Measure the suites (all, if none is named) and compare every count, op and cycle with the stored baseline.\v"
-    "Exit code 1 if anything differs. Suites: mft-primary: both kernels on the built-in scenes at 256x256, on larrabee and knc.",
+    "Exit code 1 if anything differs. Suites: mft-primary, mft-soft: packets and frusta on the built-in scenes, on larrabee and knc; "
+    "primary rays at 256x256, soft shadows at 32x32 with every way to shrink frusta.",
     NULL, NULL, NULL,
 };
 
 /* One measurement of the suite. */
-static base_status measure(json_t *runs, const scene *s, const kernel_info *kernel, const char *machine_name, run_model model,
-                           unsigned jobs, base_error *err)
+static base_status measure(json_t *runs, const scene *s, const kernel_info *kernel, const kernel_params *params, unsigned size,
+                           const char *machine_name, run_model model, unsigned jobs, base_error *err)
 {
     const command_list no_sets = {0};
     sim_machine *machine = NULL;
     run_result result = {0};
-    run_options options = {.kernel = kernel, .params = kernel->defaults, .width = SIZE, .height = SIZE, .model = model, .jobs = jobs, .progress = true};
+    run_options options = {.kernel = kernel, .params = *params, .width = size, .height = size, .model = model, .jobs = jobs, .progress = true};
     base_status status = command_machine(machine_name, &no_sets, &machine, err);
     if (status == BASE_OK)
         status = run_kernel(s, machine, &options, &result, err);
@@ -67,22 +78,35 @@ static base_status measure(json_t *runs, const scene *s, const kernel_info *kern
     return status;
 }
 
-static base_status measure_scene(json_t *runs, const scene *s, unsigned jobs, base_error *err)
+/* One kernel in all models; other ways to shrink are counted only. */
+static base_status measure_kernel(json_t *runs, const scene *s, const kernel_info *kernel, unsigned size, unsigned jobs, base_error *err)
 {
     static const struct {
         const char *machine;
         run_model model;
     } ways[] = {{"larrabee", RUN_COUNT}, {"larrabee", RUN_ISSUE}, {"knc", RUN_ISSUE}, {"larrabee", RUN_CORE}, {"knc", RUN_CORE}};
-    size_t kernels;
-    const kernel_info *kernel = kernel_list(&kernels);
+    size_t rows;
+    const kernel_param_info *shrink = &kernel_param_list(&rows)[KERNEL_PARAM_SHRINK];
+    kernel_params params = kernel->defaults;
     base_status status = BASE_OK;
-    for (size_t k = 0; k < kernels; k++)
-        for (size_t w = 0; status == BASE_OK && w < sizeof ways / sizeof *ways; w++)
-            status = measure(runs, s, &kernel[k], ways[w].machine, ways[w].model, jobs, err);
+    for (size_t w = 0; status == BASE_OK && w < sizeof ways / sizeof *ways; w++)
+        status = measure(runs, s, kernel, &params, size, ways[w].machine, ways[w].model, jobs, err);
+    if (!(kernel->params >> KERNEL_PARAM_SHRINK & 1))
+        return status;
+    for (params.shrink = shrink->min + 1; status == BASE_OK && params.shrink <= shrink->max; params.shrink++)
+        status = measure(runs, s, kernel, &params, size, "larrabee", RUN_COUNT, jobs, err);
     return status;
 }
 
-static base_status measure_suite(json_t *runs, unsigned jobs, base_error *err)
+static base_status measure_scene(json_t *runs, const suite *of, const scene *s, unsigned jobs, base_error *err)
+{
+    base_status status = BASE_OK;
+    for (size_t k = 0; status == BASE_OK && k < KERNELS; k++)
+        status = measure_kernel(runs, s, kernel_find(of->kernels[k]), of->size, jobs, err);
+    return status;
+}
+
+static base_status measure_suite(json_t *runs, const suite *of, unsigned jobs, base_error *err)
 {
     size_t count;
     const scene_builtin *builtin = scene_builtin_list(&count);
@@ -93,16 +117,18 @@ static base_status measure_suite(json_t *runs, unsigned jobs, base_error *err)
         snprintf(name, sizeof name, "builtin:%s", builtin[i].name);
         status = scene_open(name, &s, err);
         if (status == BASE_OK)
-            status = measure_scene(runs, s, jobs, err);
+            status = measure_scene(runs, of, s, jobs, err);
         scene_destroy(&s);
     }
     return status;
 }
 
-/* What names a run: kernel, scene, model, machine. */
+/* What names a run: kernel, how it shrinks frusta if not at all, scene, model, machine. */
 static void run_name(const json_t *run, char *name, size_t size)
 {
-    snprintf(name, size, "%s %s %s %s", json_string_value(json_object_get(run, "kernel")),
+    const char *shrink = json_string_value(json_object_get(json_object_get(run, "params"), "shrink"));
+    const bool shrinks = shrink && strcmp(shrink, "none") != 0;
+    snprintf(name, size, "%s%s%s %s %s %s", json_string_value(json_object_get(run, "kernel")), shrinks ? " shrink=" : "", shrinks ? shrink : "",
              json_string_value(json_object_get(json_object_get(run, "scene"), "name")), json_string_value(json_object_get(run, "model")),
              json_string_value(json_object_get(json_object_get(run, "machine"), "name")));
 }
@@ -195,13 +221,13 @@ static comparison compare_runs(const json_t *stored, const json_t *measured)
     return c;
 }
 
-static base_status store(const char *path, json_t *runs, base_error *err)
+static base_status store(const suite *of, const char *path, json_t *runs, base_error *err)
 {
     base_output out;
     base_status status = base_output_begin(path, false, &out, err);
     if (status != BASE_OK)
         return status;
-    json_t *baseline = json_pack("{s:s, s:s, s:O}", "schema", "lanetrace-baseline-1", "suite", suite_name, "runs", runs);
+    json_t *baseline = json_pack("{s:s, s:s, s:O}", "schema", "lanetrace-baseline-1", "suite", of->name, "runs", runs);
     status = report_json_write(baseline, out.stream, err);
     json_decref(baseline);
     if (status != BASE_OK) {
@@ -232,7 +258,7 @@ static base_status load(const char *path, json_t **runs, base_error *err)
 }
 
 /* Compare and print; *differ is set if anything does. */
-static base_status check(const char *path, const json_t *measured, bool *differ, base_error *err)
+static base_status check(const suite *of, const char *path, const json_t *measured, bool *differ, base_error *err)
 {
     json_t *stored = NULL;
     base_status status = load(path, &stored, err);
@@ -242,34 +268,50 @@ static base_status check(const char *path, const json_t *measured, bool *differ,
     size_t count = report_table_rows(c.differences);
     if (count)
         status = report_table_write_text(c.differences, stdout, err);
-    printf("%s: %zu values in %zu runs compared, %zu differ\n", suite_name, c.values, json_array_size(measured), count);
-    *differ = count > 0;
+    printf("%s: %zu values in %zu runs compared, %zu differ\n", of->name, c.values, json_array_size(measured), count);
+    *differ |= count > 0;
     report_table_destroy(&c.differences);
     json_decref(stored);
     return status;
 }
 
-static base_status regress(const arguments *a, bool *differ, base_error *err)
+static base_status regress_suite(const arguments *a, const suite *of, unsigned jobs, bool *differ, base_error *err)
 {
     char path[PATH_BYTES];
-    unsigned long jobs = base_parallel_jobs();
-    for (size_t i = 0; i < a->suites.count; i++)
-        if (strcmp(a->suites.items[i], suite_name) != 0)
-            return base_fail(err, BASE_ERR_USAGE, a->suites.items[i], "no such suite (there is %s)", suite_name);
-    if (a->jobs && command_number("--jobs", a->jobs, 1, 1024, &jobs, err) != BASE_OK)
-        return err->status;
     const char *installed = access(LANETRACE_SOURCE_BASELINES, R_OK) == 0 ? LANETRACE_SOURCE_BASELINES : LANETRACE_INSTALLED_BASELINES;
-    snprintf(path, sizeof path, "%.3900s/%s.json", a->baselines ? a->baselines : installed, suite_name);
+    snprintf(path, sizeof path, "%.3900s/%s.json", a->baselines ? a->baselines : installed, of->name);
     json_t *runs = json_array();
-    base_status status = measure_suite(runs, (unsigned)jobs, err);
+    base_status status = measure_suite(runs, of, jobs, err);
     if (status == BASE_OK && a->update) {
-        status = store(path, runs, err);
+        status = store(of, path, runs, err);
         if (status == BASE_OK)
-            printf("%s: %zu runs stored in %s\n", suite_name, json_array_size(runs), path);
+            printf("%s: %zu runs stored in %s\n", of->name, json_array_size(runs), path);
     } else if (status == BASE_OK) {
-        status = check(path, runs, differ, err);
+        status = check(of, path, runs, differ, err);
     }
     json_decref(runs);
+    return status;
+}
+
+static const suite *find_suite(const char *name)
+{
+    for (size_t i = 0; i < SUITES; i++)
+        if (strcmp(suites[i].name, name) == 0)
+            return &suites[i];
+    return NULL;
+}
+
+static base_status regress(const arguments *a, bool *differ, base_error *err)
+{
+    unsigned long jobs = base_parallel_jobs();
+    base_status status = BASE_OK;
+    for (size_t i = 0; i < a->suites.count; i++)
+        if (!find_suite(a->suites.items[i]))
+            return base_fail(err, BASE_ERR_USAGE, a->suites.items[i], "no such suite (there are mft-primary, mft-soft)");
+    if (a->jobs && command_number("--jobs", a->jobs, 1, 1024, &jobs, err) != BASE_OK)
+        return err->status;
+    for (size_t i = 0; status == BASE_OK && i < (a->suites.count ? a->suites.count : SUITES); i++)
+        status = regress_suite(a, a->suites.count ? find_suite(a->suites.items[i]) : &suites[i], (unsigned)jobs, differ, err);
     return status;
 }
 

@@ -31,6 +31,8 @@ typedef struct job_light {
     float slack, reach, guard;          /* as in job_constants, for directions of length 1 */
     float share;                        /* of a sample in the visibility */
     float one;
+    uint32_t all_samples, untaken_samples;        /* bits of a set */
+    uint32_t count_shift[4], count_fields[4];     /* for counting bits */
 } job_light;
 
 /* A set of 16 samples of the light, in lanes; 512 bytes. */

@@ -59,6 +59,13 @@ static void fill_light(kernel_job *job, const scene_light *light)
     l->guard = guard_relative;
     l->share = job->params.samples ? 1.0f / (float)job->params.samples : 0.0f;
     l->one = 1.0f;
+    l->all_samples = 0xffff;
+    l->untaken_samples = job->params.samples && job->params.samples < 16 ? 0xffffu & ~four_samples : 0;
+    static const uint32_t fields[4] = {0x5555, 0x3333, 0x0f0f, 0x00ff};
+    for (unsigned step = 0; step < 4; step++) {
+        l->count_shift[step] = 1u << step;
+        l->count_fields[step] = fields[step];
+    }
 }
 
 static void fill_samples(kernel_job *job, const light_samples *sets, unsigned count)

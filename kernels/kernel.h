@@ -49,7 +49,7 @@ extern const char *const kernel_phase_names[KERNEL_PHASE_COUNT];
 
 /* Numbers of the source files, for branches and lines in events (LRB_SOURCE; kernels/sources.h has the files). */
 enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, KERNEL_SOURCE_CORNER_CULL, KERNEL_SOURCE_PACKET16, KERNEL_SOURCE_MFT,
-       KERNEL_SOURCE_RAYS, KERNEL_SOURCE_PACKET16_PRIMARY, KERNEL_SOURCE_MFT_PRIMARY, KERNEL_SOURCE_SHADOW, KERNEL_SOURCE_PACKET16_SOFT,
+       KERNEL_SOURCE_RAYS, KERNEL_SOURCE_SHADOW, KERNEL_SOURCE_PACKET16_SOFT,
        KERNEL_SOURCE_LANE_CULL, KERNEL_SOURCE_MFT_SHRINK, KERNEL_SOURCE_MFT_SOFT };
 
 /* The name of a tile function at the level that is being compiled: mft_primary_count. */

@@ -20,7 +20,22 @@ enum {
     SCRATCH_HIGH = 1152,    /* 64: ... and largest */
     SCRATCH_STACK = 1216,   /* traversal stack: 8 bytes an entry, one per level at most */
     SCRATCH_STACK_ENTRY = 8,
-    SCRATCH_END = SCRATCH_STACK + SCRATCH_STACK_ENTRY * (BVH_MAX_DEPTH + 1)
+    SCRATCH_STACK_END = SCRATCH_STACK + SCRATCH_STACK_ENTRY * (BVH_MAX_DEPTH + 1),
+
+    /* Shadow rays of a block of pixels, lane = pixel (kernels/shadow16.h). */
+    SCRATCH_HIT_POINTS = (SCRATCH_STACK_END + 63) / 64 * 64, /* 3 x 64: where the rays start, by axis */
+    SCRATCH_TO_LIGHT = SCRATCH_HIT_POINTS + 192,     /* 3 x 64: directions to the light's corner: rays are this and a sample's delta */
+    SCRATCH_LIGHT_CORNERS = SCRATCH_TO_LIGHT + 192,  /* 4 x 3 x 64: corner rays of the frusta, by corner and axis */
+    SCRATCH_LIGHT_SLACK = SCRATCH_LIGHT_CORNERS + 768, /* 64: the widening for box tests ... */
+    SCRATCH_LIGHT_REACH = SCRATCH_LIGHT_SLACK + 64,  /* 64: ... how far a hit may lie outside its triangle's bounds, by t ... */
+    SCRATCH_LIGHT_GUARD = SCRATCH_LIGHT_REACH + 64,  /* 64: ... and the factor of the rounding error of corner tests */
+    SCRATCH_OCCLUSION = SCRATCH_LIGHT_GUARD + 64,    /* 64: bits of the blocked rays */
+    SCRATCH_SEEN = SCRATCH_OCCLUSION + 64,           /* 64: number of samples seen, all sets */
+    SCRATCH_LANE_EDGES = SCRATCH_SEEN + 64,          /* 3 x 3 x 64: edge planes of a triangle from each lane's origin, by edge and axis */
+    SCRATCH_LANE_PLANE = SCRATCH_LANE_EDGES + 576,   /* 64: distance of its plane */
+    SCRATCH_INTERVALS = SCRATCH_LANE_PLANE + 64,     /* 2 x 3 x 64: intervals of the directions, widened: smallest, largest */
+    SCRATCH_RECTANGLE = SCRATCH_INTERVALS + 384,     /* 4 x 64: part of the light that is left: smallest and largest a, the same of b */
+    SCRATCH_END = SCRATCH_RECTANGLE + 256
 };
 
 #endif

@@ -1,4 +1,4 @@
-/* The 16-lane slab test: one box against 16 intervals of directions from one origin. docs/kernels.md.
+/* The 16-lane slab test: one box against 16 intervals of directions, from one origin or from 16. docs/kernels.md.
  *
  * A lane is a ray of a packet or a frustum of a group. What is tested is, per axis, an interval of direction components:
  * for a frustum the range over its rays; for a ray its own component. Both are widened by `slack` on either side,
@@ -34,6 +34,9 @@ typedef enum slab16_path {
 
 typedef struct slab16 {
     slab16_path path;
+    bool own_origins; /* a constant: every lane has an origin of its own, and the boxes in scratch are not relative to one */
+    lrb_v16f origin[3]; /* then: of each lane */
+    lrb_k16 alive;  /* lanes that look for a hit, of a traversal to which any is enough (kernels/traversal16.h) */
     lrb_v16f limit; /* distance that an entry must not exceed: nearest hit so far */
     lrb_v16f zero, infinity;
     lrb_v16f near_rcp[3]; /* COMMON, BLEND: 1 / largest magnitude; ZERO: 1 / largest component, positive */
@@ -72,17 +75,10 @@ LRB_INLINE bool slab16_setup_common(lrb_ctx *c, slab16 *s, lrb_ptr scratch, lrb_
     return true;
 }
 
-/**
- * Prepare the test for a packet or group and choose its path.
- *
- * @param lo, hi  per axis the smallest and largest direction component of each lane, not yet widened
- * @param active  lanes that will be tested; the others may hold anything
- * @param n       the path is counted here
- */
-LRB_INLINE void slab16_setup(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr scratch, lrb_k16 active, lrb_v16f lo[3],
-                             lrb_v16f hi[3], kernel_counts *n)
+/* Widen the intervals and find the lanes' signs; returns the lanes of `active` that have one on every axis. */
+LRB_INLINE lrb_k16 slab16_widen(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr scratch, lrb_v16f slack, lrb_k16 active,
+                                lrb_v16f lo[3], lrb_v16f hi[3])
 {
-    lrb_v16f slack = lrb_load_1to16_ps(c, RAYS16_CONSTANT(constants, slack));
     lrb_k16 all_strict = active;
     s->infinity = lrb_load_ps(c, RAYS16_CONSTANT(constants, infinity));
     s->zero = lrb_castpi_ps(lrb_xor_pi(c, lrb_castps_pi(slack), lrb_castps_pi(slack)));
@@ -98,6 +94,22 @@ LRB_INLINE void slab16_setup(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr s
         lrb_v16f smallest = lrb_mask_mov_ps(c, lo[axis], s->negative[axis], hi[axis]);
         s->far_rcp[axis] = rays16_reciprocal(c, smallest);
     }
+    return all_strict;
+}
+
+/**
+ * Prepare the test for a packet or group and choose its path.
+ *
+ * @param s       own_origins and origin are the caller's to set
+ * @param slack   what the intervals are widened by: 2^-16 of the length of the longest direction in the lane
+ * @param lo, hi  per axis the smallest and largest direction component of each lane; out: widened
+ * @param active  lanes that will be tested; the others may hold anything
+ * @param n       the path is counted here
+ */
+LRB_INLINE void slab16_setup(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr scratch, lrb_v16f slack, lrb_k16 active,
+                             lrb_v16f lo[3], lrb_v16f hi[3], kernel_counts *n)
+{
+    lrb_k16 all_strict = slab16_widen(c, s, constants, scratch, slack, active, lo, hi);
     lrb_k16 some_zero = lrb_kxor(c, all_strict, active);
     if (lrb_jnz(c, lrb_kortest(c, some_zero, some_zero))) {
         s->path = SLAB16_ZERO;
@@ -111,41 +123,54 @@ LRB_INLINE void slab16_setup(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr s
     n->n[s->path == SLAB16_COMMON ? KERNEL_units_common : KERNEL_units_blend]++;
 }
 
-/* Entry and exit distances of one axis. `box` is the box in scratch, relative to the origin; `second` 32 for its neighbour. */
-LRB_INLINE lrb_v16f slab16_entry(lrb_ctx *c, const slab16 *s, slab16_path path, lrb_ptr scratch, int axis, int second)
+/* One of a box's planes, relative to each lane's origin. */
+LRB_INLINE lrb_s3f slab16_plane(lrb_ctx *c, const slab16 *s, lrb_mem plane, int axis)
 {
+    if (!s->own_origins)
+        return lrb_1to16_ps(plane);
+    return lrb_reg_ps(lrb_subr_ps_s3(c, s->origin[axis], lrb_1to16_ps(plane)));
+}
+
+/* The two planes of one axis: the near one and the far one (COMMON), or the smaller and the larger. `second`: 32 for the box's
+   neighbour in scratch. */
+LRB_INLINE void slab16_planes(lrb_ctx *c, const slab16 *s, slab16_path path, lrb_ptr scratch, int axis, int second, lrb_s3f planes[2])
+{
+    const bool common = path == SLAB16_COMMON;
     lrb_mem min = lrb_at(scratch, SCRATCH_BOXES + second + 4 * axis);
     lrb_mem max = lrb_at(scratch, SCRATCH_BOXES + second + 4 * (axis + 4));
-    lrb_v16f entry;
+    planes[0] = slab16_plane(c, s, common ? lrb_at(s->near_plane[axis], second) : min, axis);
+    planes[1] = slab16_plane(c, s, common ? lrb_at(s->far_plane[axis], second) : max, axis);
+}
+
+/* Entry and exit distances of one axis. */
+LRB_INLINE lrb_v16f slab16_entry(lrb_ctx *c, const slab16 *s, slab16_path path, const lrb_s3f planes[2], int axis)
+{
+    lrb_v16f entry = lrb_mul_ps_s3(c, s->near_rcp[axis], planes[0]);
     switch (path) {
     case SLAB16_COMMON:
-        return lrb_mul_ps_s3(c, s->near_rcp[axis], lrb_1to16_ps(lrb_at(s->near_plane[axis], second)));
+        return entry;
     case SLAB16_BLEND:
-        entry = lrb_mul_ps_s3(c, s->near_rcp[axis], lrb_1to16_ps(min));
-        return lrb_mask_mul_ps_s3(c, entry, s->negative[axis], s->near_rcp[axis], lrb_1to16_ps(max));
+        return lrb_mask_mul_ps_s3(c, entry, s->negative[axis], s->near_rcp[axis], planes[1]);
     case SLAB16_ZERO:
         /* Whatever the lane's sign: the box is reached going forward at min / largest, going back at max / smallest;
            the product of the wrong direction is negative, or huge where that direction cannot reach the box. */
-        entry = lrb_mul_ps_s3(c, s->near_rcp[axis], lrb_1to16_ps(min));
-        return lrb_max_ps(c, entry, lrb_mul_ps_s3(c, s->back_rcp[axis], lrb_1to16_ps(max)));
+        return lrb_max_ps(c, entry, lrb_mul_ps_s3(c, s->back_rcp[axis], planes[1]));
     }
     return s->zero;
 }
 
-LRB_INLINE lrb_v16f slab16_exit(lrb_ctx *c, const slab16 *s, slab16_path path, lrb_ptr scratch, int axis, int second)
+LRB_INLINE lrb_v16f slab16_exit(lrb_ctx *c, const slab16 *s, slab16_path path, const lrb_s3f planes[2], int axis)
 {
-    lrb_mem min = lrb_at(scratch, SCRATCH_BOXES + second + 4 * axis);
-    lrb_mem max = lrb_at(scratch, SCRATCH_BOXES + second + 4 * (axis + 4));
     lrb_v16f by_min, by_max;
     switch (path) {
     case SLAB16_COMMON:
-        return lrb_mul_ps_s3(c, s->far_rcp[axis], lrb_1to16_ps(lrb_at(s->far_plane[axis], second)));
+        return lrb_mul_ps_s3(c, s->far_rcp[axis], planes[1]);
     case SLAB16_BLEND:
-        by_max = lrb_mul_ps_s3(c, s->far_rcp[axis], lrb_1to16_ps(max));
-        return lrb_mask_mul_ps_s3(c, by_max, s->negative[axis], s->far_rcp[axis], lrb_1to16_ps(min));
+        by_max = lrb_mul_ps_s3(c, s->far_rcp[axis], planes[1]);
+        return lrb_mask_mul_ps_s3(c, by_max, s->negative[axis], s->far_rcp[axis], planes[0]);
     case SLAB16_ZERO:
-        by_min = lrb_mul_ps_s3(c, s->far_rcp[axis], lrb_1to16_ps(min));
-        by_max = lrb_mul_ps_s3(c, s->far_rcp[axis], lrb_1to16_ps(max));
+        by_min = lrb_mul_ps_s3(c, s->far_rcp[axis], planes[0]);
+        by_max = lrb_mul_ps_s3(c, s->far_rcp[axis], planes[1]);
         return lrb_mask_max_ps(c, lrb_mov_ps(c, s->infinity), s->strict[axis], by_min, by_max);
     }
     return s->infinity;
@@ -159,16 +184,20 @@ LRB_INLINE lrb_v16f slab16_exit(lrb_ctx *c, const slab16 *s, slab16_path path, l
  * @param m       lanes to test
  * @param entry   out: entry distances, at least 0
  *
- * Returns the lanes of m that meet the box. 13 ops on the common path, as Benthin and Wald's appendix A.
+ * Returns the lanes of m that meet the box. 13 ops on the common path, as Benthin and Wald's appendix A; six more if the lanes have
+ * origins of their own.
  */
 LRB_INLINE lrb_k16 slab16_test(lrb_ctx *c, const slab16 *s, slab16_path path, lrb_ptr scratch, int second, lrb_k16 m, lrb_v16f *entry)
 {
-    lrb_v16f e = slab16_entry(c, s, path, scratch, 0, second);
-    lrb_v16f x = slab16_exit(c, s, path, scratch, 0, second);
-    e = lrb_max_ps(c, e, slab16_entry(c, s, path, scratch, 1, second));
-    x = lrb_min_ps(c, x, slab16_exit(c, s, path, scratch, 1, second));
-    e = lrb_max_ps(c, e, slab16_entry(c, s, path, scratch, 2, second));
-    x = lrb_min_ps(c, x, slab16_exit(c, s, path, scratch, 2, second));
+    lrb_v16f e = s->zero, x = s->limit;
+    for (int axis = 0; axis < 3; axis++) {
+        lrb_s3f planes[2];
+        slab16_planes(c, s, path, scratch, axis, second, planes);
+        lrb_v16f axis_entry = slab16_entry(c, s, path, planes, axis);
+        e = axis ? lrb_max_ps(c, e, axis_entry) : axis_entry;
+        lrb_v16f axis_exit = slab16_exit(c, s, path, planes, axis);
+        x = axis ? lrb_min_ps(c, x, axis_exit) : axis_exit;
+    }
     e = lrb_max_ps(c, e, s->zero);
     x = lrb_min_ps(c, x, s->limit);
     *entry = e;

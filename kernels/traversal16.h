@@ -1,7 +1,8 @@
-/* Traversal of the BVH by 16 lanes with one origin: packets of rays and groups of frusta alike. docs/kernels.md.
+/* Traversal of the BVH by 16 lanes, with one origin or 16: packets of rays and groups of frusta alike. docs/kernels.md.
  *
  * The stack holds nodes and masks, no distances, as in Benthin and Wald's appendix A: distances are checked again at
- * the children. The nearer child is first: the one that any lane in both enters first.
+ * the children. The nearer child is first: the one that any lane in both enters first. Lanes that look for any hit leave
+ * `alive` when they need no more; then they are not taken from the stack, and with the last of them the traversal ends.
  */
 #ifndef KERNELS_TRAVERSAL16_H
 #define KERNELS_TRAVERSAL16_H
@@ -11,13 +12,14 @@
 #undef LRB_SOURCE
 #define LRB_SOURCE KERNEL_SOURCE_TRAVERSAL
 
-/* Intersect the triangles of one leaf: records [first, end), lanes m; shortens s->limit. */
-typedef void traversal16_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr first, lrb_ptr end, lrb_k16 m);
+/* Intersect the triangles of one leaf: records [first, end), lanes m; `box` is its node. Shortens s->limit or empties s->alive. */
+typedef void traversal16_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr box, lrb_ptr first, lrb_ptr end, lrb_k16 m);
 
 typedef struct traversal16 {
     lrb_ptr nodes, records, scratch;
     lrb_v16f origin; /* x y z 0, four times */
     uint32_t root_link, root_count;
+    bool any;   /* a constant: any hit will do, s->alive are the lanes that still look for one */
     bool empty; /* a tree without triangles: nothing is launched */
     traversal16_leaf *leaf; /* a constant, so that it is inlined */
     void *user;
@@ -40,15 +42,16 @@ LRB_INLINE traversal16 traversal16_of(const kernel_job *job, lrb_ptr scratch, tr
     };
 }
 
-/* A node as the traversal holds it: its link and count, and the lanes that are in it. */
+/* A node as the traversal holds it: where it is, its link and count, and the lanes that are in it. */
 typedef struct traversal16_node {
+    lrb_ptr box;
     lrb_r64 link, count;
     lrb_k16 m;
 } traversal16_node;
 
 LRB_INLINE traversal16_node traversal16_read(lrb_ctx *c, lrb_ptr node, lrb_k16 m)
 {
-    traversal16_node r = {.m = m};
+    traversal16_node r = {.box = node, .m = m};
     r.link = lrb_load32(c, lrb_at(node, (int32_t)offsetof(bvh_node, link)));
     r.count = lrb_load32(c, lrb_at(node, (int32_t)offsetof(bvh_node, count)));
     return r;
@@ -67,9 +70,15 @@ LRB_INLINE bool traversal16_descend(lrb_ctx *c, const traversal16 *t, const slab
 {
     lrb_v16f entry0, entry1;
     lrb_ptr pair = lrb_lea(c, t->nodes, node->link, 1, 0);
+    t->n->n[KERNEL_traversed_cells]++;
     t->n->n[KERNEL_traversed_inner]++;
     t->n->n[KERNEL_aabb_tests] += 2;
-    lrb_store_ps(c, lrb_at(t->scratch, SCRATCH_BOXES), lrb_subr_ps_s3(c, t->origin, lrb_full_ps(lrb_at(pair, 0))));
+    lrb_v16f boxes;
+    if (s->own_origins)
+        boxes = lrb_load_ps(c, lrb_at(pair, 0));
+    else
+        boxes = lrb_subr_ps_s3(c, t->origin, lrb_full_ps(lrb_at(pair, 0)));
+    lrb_store_ps(c, lrb_at(t->scratch, SCRATCH_BOXES), boxes);
     lrb_k16 m0 = slab16_test(c, s, path, t->scratch, 0, node->m, &entry0);
     lrb_k16 m1 = slab16_test(c, s, path, t->scratch, 32, node->m, &entry1);
     lrb_ptr second = lrb_lea(c, pair, lrb_imm(0), 1, 32);
@@ -92,52 +101,55 @@ LRB_INLINE bool traversal16_descend(lrb_ctx *c, const traversal16 *t, const slab
     return true;
 }
 
-/** Visit every leaf that a lane of `active` meets nearer than its limit. `path` is a constant equal to s->path. */
-LRB_INLINE void traversal16_run(lrb_ctx *c, const traversal16 *t, slab16 *s, slab16_path path, lrb_k16 active)
+/* The same, on the path that slab16_setup chose: each has a box test of its own. */
+LRB_INLINE bool traversal16_descend_path(lrb_ctx *c, const traversal16 *t, const slab16 *s, traversal16_node *node, lrb_ptr *top)
 {
-    lrb_ptr bottom = lrb_lea(c, t->scratch, lrb_imm(0), 1, SCRATCH_STACK);
-    lrb_ptr top = bottom;
-    traversal16_node node = {.link = lrb_imm(t->root_link), .count = lrb_imm(t->root_count), .m = active};
-    bool reached = true;
-    for (;;) {
-        while (reached && !lrb_jnz(c, lrb_test(c, node.count, node.count)))
-            reached = traversal16_descend(c, t, s, path, &node, &top);
-        if (reached) {
-            t->n->n[KERNEL_traversed_cells]++; /* leaves; the inner nodes are added by the caller */
-            lrb_ptr first = lrb_lea(c, t->records, node.link, 1, 0);
-            lrb_ptr end = lrb_lea(c, first, lrb_shl(c, node.count, 6), 1, 0);
-            t->leaf(c, s, t->user, first, end, node.m);
-            lrb_phase(c, KERNEL_PHASE_TRAVERSAL);
-        }
-        if (lrb_jz(c, lrb_cmp_ptr(c, top, bottom)))
-            break;
-        top = lrb_lea(c, top, lrb_imm(0), 1, -SCRATCH_STACK_ENTRY);
-        lrb_r64 offset = lrb_load32(c, lrb_at(top, 0));
-        lrb_k16 m = lrb_kmov_kr(c, lrb_load32(c, lrb_at(top, 4)));
-        node = traversal16_read(c, lrb_lea(c, t->nodes, offset, 1, 0), m);
-        reached = true;
+    switch (s->path) {
+    case SLAB16_COMMON:
+        return traversal16_descend(c, t, s, SLAB16_COMMON, node, top);
+    case SLAB16_BLEND:
+        return traversal16_descend(c, t, s, SLAB16_BLEND, node, top);
+    case SLAB16_ZERO:
+        return traversal16_descend(c, t, s, SLAB16_ZERO, node, top);
     }
+    return false;
 }
 
-/** The same with the path that slab16_setup chose: three loops, each with its own box test. */
-LRB_INLINE void traversal16_run_path(lrb_ctx *c, const traversal16 *t, slab16 *s, lrb_k16 active)
+/** Visit every leaf that a lane of `active` meets nearer than its limit, or, if any hit will do, until no lane is alive. */
+LRB_INLINE void traversal16_run(lrb_ctx *c, const traversal16 *t, slab16 *s, lrb_k16 active)
 {
-    uint64_t inner_before = t->n->n[KERNEL_traversed_inner];
     if (t->empty)
         return;
     lrb_phase(c, KERNEL_PHASE_TRAVERSAL);
-    switch (s->path) {
-    case SLAB16_COMMON:
-        traversal16_run(c, t, s, SLAB16_COMMON, active);
-        break;
-    case SLAB16_BLEND:
-        traversal16_run(c, t, s, SLAB16_BLEND, active);
-        break;
-    case SLAB16_ZERO:
-        traversal16_run(c, t, s, SLAB16_ZERO, active);
-        break;
+    lrb_ptr bottom = lrb_lea(c, t->scratch, lrb_imm(0), 1, SCRATCH_STACK);
+    lrb_ptr top = bottom;
+    traversal16_node node = {.box = t->nodes, .link = lrb_imm(t->root_link), .count = lrb_imm(t->root_count), .m = active};
+    bool reached = true;
+    for (;;) {
+        while (reached && !lrb_jnz(c, lrb_test(c, node.count, node.count)))
+            reached = traversal16_descend_path(c, t, s, &node, &top);
+        if (reached) {
+            t->n->n[KERNEL_traversed_cells]++;
+            lrb_ptr first = lrb_lea(c, t->records, node.link, 1, 0);
+            lrb_ptr end = lrb_lea(c, first, lrb_shl(c, node.count, 6), 1, 0);
+            t->leaf(c, s, t->user, node.box, first, end, node.m);
+            if (t->any && lrb_jz(c, lrb_kortest(c, s->alive, s->alive)))
+                return;
+            lrb_phase(c, KERNEL_PHASE_TRAVERSAL);
+        }
+        if (lrb_jz(c, lrb_cmp_ptr(c, top, bottom)))
+            return;
+        top = lrb_lea(c, top, lrb_imm(0), 1, -SCRATCH_STACK_ENTRY);
+        lrb_r64 offset = lrb_load32(c, lrb_at(top, 0));
+        lrb_k16 m = lrb_kmov_kr(c, lrb_load32(c, lrb_at(top, 4)));
+        reached = true;
+        if (t->any) {
+            m = lrb_kand(c, m, s->alive);
+            reached = !lrb_jz(c, lrb_kortest(c, m, m));
+        }
+        if (reached)
+            node = traversal16_read(c, lrb_lea(c, t->nodes, offset, 1, 0), m);
     }
-    t->n->n[KERNEL_traversed_cells] += t->n->n[KERNEL_traversed_inner] - inner_before;
 }
 
 #endif

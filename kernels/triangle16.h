@@ -24,6 +24,12 @@
 enum { TRIANGLE16_EDGE_A = SCRATCH_EDGES + 16, TRIANGLE16_EDGE_B = SCRATCH_EDGES + 32, TRIANGLE16_EDGE_C = SCRATCH_EDGES };
 static const int triangle16_component[3] = {4, 8, 0}; /* byte offset of x, y, z in a group */
 
+/* Where the edge planes opposite a, b and c and the plane's distance stand, for one origin: byte offsets from a place in scratch. */
+typedef struct triangle16_layout {
+    int edge[3], component[3], plane;
+} triangle16_layout;
+static const triangle16_layout triangle16_shared = {{TRIANGLE16_EDGE_A, TRIANGLE16_EDGE_B, TRIANGLE16_EDGE_C}, {4, 8, 0}, SCRATCH_PLANE};
+
 /* Sum of the words of each group of four, in all of them. */
 LRB_INLINE lrb_v16f triangle16_group_sum(lrb_ctx *c, lrb_v16f v)
 {
@@ -89,13 +95,12 @@ LRB_INLINE bool triangle16_setup(lrb_ctx *c, lrb_ptr scratch, lrb_v16f origin, l
     return true;
 }
 
-
-/** d . e for 16 directions and one edge plane in scratch: the same three operations for rays and for corner rays. */
-LRB_INLINE lrb_v16f triangle16_edge(lrb_ctx *c, lrb_ptr scratch, int edge, const lrb_v16f d[3])
+/** d . e for 16 directions and one edge plane: the same three operations for rays and for corner rays. */
+LRB_INLINE lrb_v16f triangle16_edge(lrb_ctx *c, lrb_ptr place, const triangle16_layout *at, int edge, const lrb_v16f d[3])
 {
-    lrb_v16f sum = lrb_mul_ps_s3(c, d[0], lrb_1to16_ps(lrb_at(scratch, edge + triangle16_component[0])));
-    sum = lrb_madd231_ps_s3(c, sum, d[1], lrb_1to16_ps(lrb_at(scratch, edge + triangle16_component[1])));
-    return lrb_madd231_ps_s3(c, sum, d[2], lrb_1to16_ps(lrb_at(scratch, edge + triangle16_component[2])));
+    lrb_v16f sum = lrb_mul_ps_s3(c, d[0], lrb_1to16_ps(lrb_at(place, at->edge[edge] + at->component[0])));
+    sum = lrb_madd231_ps_s3(c, sum, d[1], lrb_1to16_ps(lrb_at(place, at->edge[edge] + at->component[1])));
+    return lrb_madd231_ps_s3(c, sum, d[2], lrb_1to16_ps(lrb_at(place, at->edge[edge] + at->component[2])));
 }
 
 /* Hits of 16 rays: lanes of `m`, all other lanes hold anything. */
@@ -122,13 +127,13 @@ LRB_INLINE lrb_k16 triangle16_inside(lrb_ctx *c, bool cull, lrb_k16 m, lrb_v16f 
  * past its tip (X6), and the distance of a plane seen nearly edge-on is noise as well. Box tests refuse some of those hits
  * and let others pass, by the boxes that a kernel happens to test; so none of them may count.
  */
-LRB_INLINE lrb_k16 triangle16_in_bounds(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch, lrb_v16f origin, lrb_ptr record, lrb_k16 m,
+LRB_INLINE lrb_k16 triangle16_in_bounds(lrb_ctx *c, lrb_mem reach_per_t, lrb_ptr scratch, lrb_v16f origin, lrb_ptr record, lrb_k16 m,
                                         const lrb_v16f d[3], lrb_v16f t)
 {
     lrb_v16f first = lrb_subr_ps_s3(c, origin, lrb_full_ps(lrb_at(record, 0))); /* a | b | c | normal */
     lrb_v16f second = lrb_shuf128x32_ps(c, first, 0xc9, LRB_DCBA);
     lrb_v16f third = lrb_shuf128x32_ps(c, first, 0xd2, LRB_DCBA);
-    lrb_v16f reach = lrb_mul_ps_s3(c, t, lrb_1to16_ps(RAYS16_CONSTANT(constants, reach)));
+    lrb_v16f reach = lrb_mul_ps_s3(c, t, lrb_1to16_ps(reach_per_t));
     lrb_store_ps(c, lrb_at(scratch, SCRATCH_LOW), lrb_min_ps(c, lrb_min_ps(c, first, second), third));
     lrb_store_ps(c, lrb_at(scratch, SCRATCH_HIGH), lrb_max_ps(c, lrb_max_ps(c, first, second), third));
     for (int axis = 0; axis < 3; axis++) {
@@ -138,6 +143,31 @@ LRB_INLINE lrb_k16 triangle16_in_bounds(lrb_ctx *c, lrb_ptr constants, lrb_ptr s
         m = lrb_mask_cmple_ps_s3(c, m, below, lrb_1to16_ps(lrb_at(scratch, SCRATCH_HIGH + 4 * axis)));
     }
     return m;
+}
+
+/* The rays of m that meet the triangle, or its plane behind them: their weights and distances. */
+typedef struct triangle16_meeting {
+    lrb_k16 m;
+    lrb_v16f weight[3], sum, t;
+} triangle16_meeting;
+
+/* Where 16 rays meet a triangle whose edge planes are at `place`. t is formed if m is not empty: a branch. */
+LRB_INLINE triangle16_meeting triangle16_meet(lrb_ctx *c, lrb_ptr place, const triangle16_layout *at, lrb_ptr record, bool cull, lrb_k16 m,
+                                              const lrb_v16f d[3], lrb_v16f zero)
+{
+    triangle16_meeting r = {.t = zero};
+    const int32_t normal = (int32_t)offsetof(bvh_triangle, normal);
+    for (int i = 0; i < 3; i++)
+        r.weight[i] = triangle16_edge(c, place, at, i, d);
+    r.sum = lrb_add_ps(c, lrb_add_ps(c, r.weight[0], r.weight[1]), r.weight[2]);
+    r.m = triangle16_inside(c, cull, m, r.weight[0], r.weight[1], r.weight[2], r.sum, zero);
+    if (lrb_jz(c, lrb_kortest(c, r.m, r.m)))
+        return r;
+    lrb_v16f det = lrb_mul_ps_s3(c, d[0], lrb_1to16_ps(lrb_at(record, normal)));
+    det = lrb_madd231_ps_s3(c, det, d[1], lrb_1to16_ps(lrb_at(record, normal + 4)));
+    det = lrb_madd231_ps_s3(c, det, d[2], lrb_1to16_ps(lrb_at(record, normal + 8)));
+    r.t = lrb_mul_ps_s3(c, rays16_reciprocal(c, det), lrb_1to16_ps(lrb_at(place, at->plane)));
+    return r;
 }
 
 /**
@@ -152,19 +182,10 @@ LRB_INLINE lrb_k16 triangle16_in_bounds(lrb_ctx *c, lrb_ptr constants, lrb_ptr s
 LRB_INLINE triangle16_hits triangle16_intersect(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch, lrb_v16f origin, lrb_ptr record,
                                                 bool cull, lrb_k16 m, const lrb_v16f d[3], lrb_v16f zero, lrb_v16f best_t, lrb_v16i best_id)
 {
-    triangle16_hits hits = {.m = m, .t = zero, .u = zero, .v = zero};
-    const int32_t normal = (int32_t)offsetof(bvh_triangle, normal);
-    lrb_v16f a = triangle16_edge(c, scratch, TRIANGLE16_EDGE_A, d);
-    lrb_v16f b = triangle16_edge(c, scratch, TRIANGLE16_EDGE_B, d);
-    lrb_v16f w = triangle16_edge(c, scratch, TRIANGLE16_EDGE_C, d);
-    lrb_v16f sum = lrb_add_ps(c, lrb_add_ps(c, a, b), w);
-    hits.m = triangle16_inside(c, cull, m, a, b, w, sum, zero);
-    if (lrb_jz(c, lrb_kortest(c, hits.m, hits.m)))
+    triangle16_meeting at = triangle16_meet(c, scratch, &triangle16_shared, record, cull, m, d, zero);
+    triangle16_hits hits = {.m = at.m, .t = at.t, .u = zero, .v = zero};
+    if (!at.m.bits) /* the branch is triangle16_meet's own */
         return hits;
-    lrb_v16f det = lrb_mul_ps_s3(c, d[0], lrb_1to16_ps(lrb_at(record, normal)));
-    det = lrb_madd231_ps_s3(c, det, d[1], lrb_1to16_ps(lrb_at(record, normal + 4)));
-    det = lrb_madd231_ps_s3(c, det, d[2], lrb_1to16_ps(lrb_at(record, normal + 8)));
-    hits.t = lrb_mul_ps_s3(c, rays16_reciprocal(c, det), lrb_1to16_ps(lrb_at(scratch, SCRATCH_PLANE)));
     hits.m = lrb_mask_cmplt_ps(c, hits.m, zero, hits.t);
     lrb_k16 nearer = lrb_mask_cmplt_ps(c, hits.m, hits.t, best_t);
     lrb_k16 equal = lrb_mask_cmpeq_ps(c, hits.m, hits.t, best_t);
@@ -172,12 +193,12 @@ LRB_INLINE triangle16_hits triangle16_intersect(lrb_ctx *c, lrb_ptr constants, l
     hits.m = lrb_kor(c, nearer, lrb_kxor(c, equal, kept));
     if (lrb_jz(c, lrb_kortest(c, hits.m, hits.m)))
         return hits;
-    hits.m = triangle16_in_bounds(c, constants, scratch, origin, record, hits.m, d, hits.t);
+    hits.m = triangle16_in_bounds(c, RAYS16_CONSTANT(constants, reach), scratch, origin, record, hits.m, d, hits.t);
     if (lrb_jz(c, lrb_kortest(c, hits.m, hits.m)))
         return hits;
-    lrb_v16f scale = rays16_reciprocal(c, sum);
-    hits.u = lrb_mul_ps(c, b, scale);
-    hits.v = lrb_mul_ps(c, w, scale);
+    lrb_v16f scale = rays16_reciprocal(c, at.sum);
+    hits.u = lrb_mul_ps(c, at.weight[1], scale);
+    hits.v = lrb_mul_ps(c, at.weight[2], scale);
     return hits;
 }
 

@@ -84,10 +84,11 @@ LRB_INLINE void mft_update_limits(lrb_ctx *c, slab16 *s, const mft_group *g, lrb
     }
 }
 
-LRB_INLINE void mft_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr record, lrb_ptr end, lrb_k16 m)
+LRB_INLINE void mft_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr box, lrb_ptr record, lrb_ptr end, lrb_k16 m)
 {
     const mft_group *g = user;
     lrb_r64 updated = lrb_imm(0);
+    (void)box;
     do {
         updated = mft_triangle(c, s, g, record, m, updated);
         record = lrb_lea(c, record, lrb_imm(0), 1, (int32_t)sizeof(bvh_triangle));
@@ -143,7 +144,7 @@ LRB_INLINE void mft_group_tile(lrb_ctx *c, const kernel_job *job, uint32_t tile,
 {
     lrb_ptr tile_ptr = lrb_segment_at(job->tiles, tile * (uint32_t)sizeof(job_tile));
     lrb_v16f lo[3], hi[3];
-    slab16 s;
+    slab16 s = {.own_origins = false};
     mft_group g = {
         .constants = lrb_segment_at(job->constants, 0),
         .scratch = lrb_segment_at(c->scratch, 0),
@@ -160,10 +161,11 @@ LRB_INLINE void mft_group_tile(lrb_ctx *c, const kernel_job *job, uint32_t tile,
     n->n[KERNEL_units_groups]++;
     n->n[KERNEL_units_frusta] += (unsigned)__builtin_popcount(active.bits);
     mft_frusta(c, &g, tile_ptr, lo, hi);
-    slab16_setup(c, &s, g.constants, g.scratch, active, lo, hi, n);
+    lrb_v16f slack = lrb_load_1to16_ps(c, RAYS16_CONSTANT(g.constants, slack));
+    slab16_setup(c, &s, g.constants, g.scratch, slack, active, lo, hi, n);
     s.limit = lrb_mov_ps(c, s.infinity);
     mft_clear_frame(c, &g, &s, tile_ptr);
-    traversal16_run_path(c, &t, &s, active);
+    traversal16_run(c, &t, &s, active);
 }
 
 KERNEL_TILE_FUNCTION(mft_primary, mft_group_tile)

@@ -19,9 +19,10 @@ typedef struct packet16 {
     kernel_counts *n;
 } packet16;
 
-LRB_INLINE void packet16_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr record, lrb_ptr end, lrb_k16 m)
+LRB_INLINE void packet16_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr box, lrb_ptr record, lrb_ptr end, lrb_k16 m)
 {
     packet16 *p = user;
+    (void)box;
     do {
         lrb_v16f edges;
         p->n->n[KERNEL_tri_accesses]++;
@@ -60,7 +61,8 @@ LRB_INLINE void packet16_start(lrb_ctx *c, packet16 *p, slab16 *s, lrb_ptr const
         p->d[axis] = lrb_add_ps_s3(c, delta, lrb_1to16_ps(lrb_at(corner, 64 * axis)));
         lo[axis] = hi[axis] = p->d[axis];
     }
-    slab16_setup(c, s, constants, p->scratch, active, lo, hi, p->n);
+    lrb_v16f slack = lrb_load_1to16_ps(c, RAYS16_CONSTANT(constants, slack));
+    slab16_setup(c, s, constants, p->scratch, slack, active, lo, hi, p->n);
     s->limit = lrb_mask_mov_ps(c, lrb_load_ps(c, RAYS16_CONSTANT(constants, no_pixel)), active, s->infinity);
     p->u = lrb_mov_ps(c, s->zero);
     p->v = lrb_mov_ps(c, s->zero);
@@ -71,7 +73,7 @@ LRB_INLINE void packet16_start(lrb_ctx *c, packet16 *p, slab16 *s, lrb_ptr const
 LRB_INLINE void packet16_trace(lrb_ctx *c, const traversal16 *t, packet16 *p, lrb_ptr constants, lrb_ptr pixels, lrb_ptr corner,
                                lrb_ptr block_frame)
 {
-    slab16 s;
+    slab16 s = {.own_origins = false};
     lrb_phase(c, KERNEL_PHASE_SETUP);
     lrb_k16 active = lrb_kmov_kr(c, lrb_load16(c, lrb_at(pixels, 0)));
     if (lrb_jz(c, lrb_kortest(c, active, active)))
@@ -80,7 +82,7 @@ LRB_INLINE void packet16_trace(lrb_ctx *c, const traversal16 *t, packet16 *p, lr
     t->n->n[KERNEL_rays] += (unsigned)__builtin_popcount(active.bits);
     t->n->n[KERNEL_rays_primary] += (unsigned)__builtin_popcount(active.bits);
     packet16_start(c, p, &s, constants, corner, active);
-    traversal16_run_path(c, t, &s, active);
+    traversal16_run(c, t, &s, active);
     lrb_phase(c, KERNEL_PHASE_SETUP);
     packet16_store(c, block_frame, &s, p);
 }

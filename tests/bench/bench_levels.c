@@ -233,10 +233,10 @@ static void print_targets(const bench *b)
                  " M/s");
 }
 
-static base_status create(bench *b, const sim_machine *machine, const bvh *tree, const scene_camera *camera, unsigned size,
-                          base_error *err)
+static base_status create(bench *b, const sim_machine *machine, const bvh *tree, const scene_camera *camera, const scene_light *light,
+                          unsigned size, base_error *err)
 {
-    base_status status = kernel_job_create(tree, camera, size, size, &b->kernel->defaults, &b->job, err);
+    base_status status = kernel_job_create(tree, camera, light, size, size, &b->kernel->defaults, &b->job, err);
     if (status == BASE_OK)
         status = sim_issue_create(machine, &b->issue, err);
     for (int w = 0; w <= WAY_ISSUE && status == BASE_OK; w++)
@@ -267,7 +267,7 @@ static base_status bench_kernel(const kernel_info *kernel, const scene *s, const
     if (status == BASE_OK)
         status = measure_bvh_build(s, &build, o->repeat, &seconds, &tree, err);
     if (status == BASE_OK)
-        status = create(&b, machine, tree, camera, o->size, err);
+        status = create(&b, machine, tree, camera, &s->light, o->size, err);
     if (status == BASE_OK) {
         printf("# BVH with leaves of up to %u: %.4f s on one thread, %.3f s per million triangles\n", build.max_leaf, seconds,
                seconds * 1e6 / (double)s->triangle_count);

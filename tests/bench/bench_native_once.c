@@ -56,7 +56,7 @@ int main(int argc, char **argv)
     if (status == BASE_OK)
         status = measure_bvh_build(s, &options, 1, &build_seconds, &tree, &err);
     if (status == BASE_OK)
-        status = kernel_job_create(tree, camera, size, size, &kernel->defaults, &job, &err);
+        status = kernel_job_create(tree, camera, &s->light, size, size, &kernel->defaults, &job, &err);
     if (status == BASE_OK)
         status = trace(kernel, job, &seconds, &rays, &err);
     if (status == BASE_OK)

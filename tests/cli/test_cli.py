@@ -54,7 +54,11 @@ def usage__wrong_words__one_line_and_exit_2(folder):
     fails(['run-kernel', 'mft-primary', *SMALL, '--model', 'guess'], 'guess')
     fails(['run-kernel', 'mft-primary', *SMALL, '--jobs', '0'], '--jobs')
     fails(['run-kernel', 'mft-primary', *SMALL, '--camera', 'nobody'], 'nobody')
-    fails(['run-kernel', 'mft-primary', *SMALL, '--samples', '0'], '--samples')
+    for samples in ('0', '5', '32', '8192', 'many'):
+        fails(['run-kernel', 'mft-soft', *SMALL, '--samples', samples], '--samples')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--samples', '16'], '--samples')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--param', 'shrink=none'], 'shrink')
+    fails(['run-kernel', 'mft-soft', *SMALL, '--param', 'shrink=all'], 'shrink')
     fails(['run-kernel', 'mft-primary', *SMALL, '--light-scale', 'nan'], '--light-scale')
     fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap-of', 'aabb_tests'], '--heatmap-of')
     fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap', folder + '/h.png', '--heatmap-of', 'units_packets'], 'units_packets')
@@ -213,14 +217,38 @@ def stats__parameters__reach_the_kernel(folder):
     assert front['counts']['tri_after_culling'] < front['counts']['tri_accesses']
 
 
+def soft__counts_and_parameters__those_of_shadows(folder):
+    packets, frusta = (stats_of(kernel, *SMALL) for kernel in ('packet16-soft', 'mft-soft'))
+    primary = stats_of('packet16-primary', *SMALL)
+    assert packets['params']['samples'] == 16 and packets['params']['light_scale'] == 1 and 'shrink' not in packets['params']
+    assert frusta['params']['shrink'] == 'none' and frusta['params']['net'] == 'hammersley'
+    assert 'samples' not in primary['params'] and 'net' not in primary['params']
+    units = packets['counts']['units']['shadow_packets']
+    assert 0 < units == frusta['counts']['units']['shadow_frusta'] <= 48 * 40
+    for stats in (packets, frusta):
+        assert stats['counts']['rays_shadow'] == 16 * units == stats['counts']['rays'] - stats['counts']['rays_primary']
+        assert stats['cycles']['by_phase']['shading'] > 0
+    assert 'shading' not in primary['cycles']['by_phase'] and 'rays_shadow' not in primary['counts']
+    assert 'additional_tests' not in packets['counts'] and frusta['counts']['additional_tests'] == 0
+    shrinking = stats_of('mft-soft', *SMALL, '--model', 'count', '--param', 'shrink=corner-rays')
+    assert shrinking['counts']['additional_tests'] > 0 and shrinking['counts']['isect_tests'] < frusta['counts']['isect_tests']
+    more = stats_of('mft-soft', *SMALL, '--model', 'native', '--samples', '64')
+    assert more['counts']['rays_shadow'] == 64 * units and more['params']['samples'] == 64
+    smaller = stats_of('mft-soft', *SMALL, '--model', 'native', '--light-scale', '0.5')
+    assert smaller['params']['light_scale'] == 0.5 and smaller['counts']['isect_tests'] < frusta['counts']['isect_tests']
+
+
 def pictures__all_kinds__written(folder):
     if not HAVE_IMAGES:
         return 'built without pictures'
-    paths = [folder + '/' + name for name in ('a.png', 'b.exr', 'c.png', 'd.jpg')]
+    paths = [folder + '/' + name for name in ('a.png', 'b.exr', 'c.png', 'd.jpg', 'e.png', 'f.exr')]
     result = run('run-kernel', 'mft-primary', *SMALL, '--image', paths[0], '--aov', paths[1], '--heatmap', paths[2])
     assert result.returncode == 0, result.stderr
     result = run('run-kernel', 'mft-primary', *SMALL, '--heatmap', paths[3], '--heatmap-of', 'aabb_tests', '--model', 'native')
     assert result.returncode == 0, result.stderr
+    result = run('run-kernel', 'mft-soft', *SMALL, '--image', paths[4], '--aov', paths[5], '--model', 'native')
+    assert result.returncode == 0, result.stderr
+    assert b'visibility' in open(paths[5], 'rb').read(2000) and b'visibility' not in open(paths[1], 'rb').read(2000)
     assert all(os.path.getsize(path) > 500 for path in paths)
     fails(['run-kernel', 'mft-primary', *SMALL, '--image', folder + '/a.nothing'], 'a.nothing')
     return None
@@ -245,19 +273,19 @@ def report__own_scene__every_form(folder):
 
 
 def regress__stored_baseline__equal_and_differences_named(folder):
-    result = run('regress', '--baselines', folder)
-    assert result.returncode == 2 and 'mft-primary.json' in result.stderr
-    assert run('regress', '--baselines', folder, '--update').returncode == 0
-    assert run('regress', '--baselines', folder).returncode == 0
-    path = folder + '/mft-primary.json'
+    result = run('regress', 'mft-soft', '--baselines', folder)
+    assert result.returncode == 2 and 'mft-soft.json' in result.stderr
+    assert run('regress', 'mft-soft', '--baselines', folder, '--update').returncode == 0
+    assert run('regress', 'mft-soft', '--baselines', folder).returncode == 0
+    path = folder + '/mft-soft.json'
     baseline = json.load(open(path, encoding='utf-8'))
     baseline['runs'][0]['counts']['aabb_tests'] += 1
     json.dump(baseline, open(path, 'w', encoding='utf-8'))
-    result = run('regress', '--baselines', folder)
+    result = run('regress', 'mft-soft', '--baselines', folder)
     assert result.returncode == 1 and 'counts.aabb_tests' in result.stdout and '1 differ' in result.stdout
     with open(path, 'w', encoding='ascii') as file:
         file.write('{"runs": 3')
-    fails(['regress', '--baselines', folder], 'mft-primary.json')
+    fails(['regress', 'mft-soft', '--baselines', folder], 'mft-soft.json')
 
 
 def regress__project_baselines__equal(folder):

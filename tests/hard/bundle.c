@@ -19,7 +19,7 @@ bundle bundle_create(const char *kernel, const bvh *tree, int cull)
     /* a quarter turn: the directions up to a tile beyond the image, for which margins are made, are up to 4.3 long */
     scene_camera camera = scene_camera_look_at("bundle", eye, forward, up, 1.57079632679489661923);
     params.cull_backface = (unsigned)cull;
-    if (kernel_job_create(tree, &camera, 16, 16, &params, &b.job, &err) != BASE_OK ||
+    if (kernel_job_create(tree, &camera, NULL, 16, 16, &params, &b.job, &err) != BASE_OK ||
         lrb_ctx_create(NULL, NULL, &b.c, &err) != BASE_OK)
         fail_msg("%s: %s", err.what, err.why);
     return b;

@@ -118,7 +118,7 @@ static void annotated__every_kernel_and_scene__the_stream_of_record_and_markers(
         for (size_t k = 0; k < kernels; k++) {
             bvh *tree = trace_tree(s, kernel[k].defaults.max_leaf);
             kernel_job *job = NULL;
-            assert_int_equal(kernel_job_create(tree, &s->cameras[0], SIZE, SIZE, &kernel[k].defaults, &job, NULL), BASE_OK);
+            assert_int_equal(kernel_job_create(tree, &s->cameras[0], &s->light, SIZE, SIZE, &kernel[k].defaults, &job, NULL), BASE_OK);
             for (uint32_t tile = 0; tile < kernel_job_tiles(job); tile++) {
                 stream plain = record(kernel[k].tile[LRB_RECORD], job, tile), lines = record(kernel[k].annotated, job, tile);
                 size_t markers = compare(&plain, &lines, &far);
@@ -158,13 +158,13 @@ static void sources__every_number__one_file(void **state)
     size_t count;
     const kernel_source *list = kernel_source_list(&count);
     (void)state;
-    assert_int_equal(count, KERNEL_SOURCE_RAYS);
+    assert_int_equal(count, KERNEL_SOURCE_MFT_SOFT);
     for (size_t i = 0; i < count; i++) {
         assert_ptr_equal(kernel_source_find(list[i].number), &list[i]);
         assert_int_equal(strlen(list[i].text), list[i].size);
     }
     assert_null(kernel_source_find(0));
-    assert_null(kernel_source_find(KERNEL_SOURCE_RAYS + 1));
+    assert_null(kernel_source_find(KERNEL_SOURCE_MFT_SOFT + 1));
 }
 
 int main(void)

@@ -38,7 +38,7 @@ static void record(const kernel_info *kernel, const scene *s, recording tiles[TI
     recording *into = NULL;
     kernel_counts n = {{0}};
     bvh *tree = trace_tree(s, kernel->defaults.max_leaf);
-    assert_int_equal(kernel_job_create(tree, &s->cameras[0], SIZE, SIZE, &kernel->defaults, &job, NULL), BASE_OK);
+    assert_int_equal(kernel_job_create(tree, &s->cameras[0], &s->light, SIZE, SIZE, &kernel->defaults, &job, NULL), BASE_OK);
     assert_int_equal(kernel_job_tiles(job), TILES);
     assert_int_equal(lrb_ctx_create(append, &into, &c, NULL), BASE_OK);
     for (uint32_t i = 0; i < TILES; i++) {

@@ -27,8 +27,6 @@ typedef struct golden {
     int count;
 } golden;
 
-static const char *kernel_names[2] = {"packet16-primary", "mft-primary"};
-
 static uint64_t ops_of_kind(const trace_picture *p, lrb_op_kind kind)
 {
     uint64_t sum = 0;
@@ -58,20 +56,21 @@ static void add_line(golden *g, const char *scene_name, const kernel_info *kerne
 static golden golden_trace(void)
 {
     static golden g;
-    size_t scenes;
+    size_t scenes, kernels;
     const scene_builtin *list = scene_builtin_list(&scenes);
+    const kernel_info *kernel_table = kernel_list(&kernels);
     g.count = 0;
     for (size_t i = 0; i < scenes; i++) {
         scene *s = NULL;
         char spec[128];
         snprintf(spec, sizeof spec, "builtin:%s", list[i].name);
         assert_int_equal(scene_open(spec, &s, NULL), BASE_OK);
-        for (int k = 0; k < 2; k++) {
-            const kernel_info *kernel = kernel_find(kernel_names[k]);
+        for (size_t k = 0; k < kernels; k++) {
+            const kernel_info *kernel = &kernel_table[k];
             bvh *tree = trace_tree(s, kernel->defaults.max_leaf);
             for (unsigned cull = 0; cull < 2; cull++) {
                 trace_request request = {.kernel = kernel->name, .tree = tree, .camera = &s->cameras[0], .width = SIZE,
-                                         .height = SIZE, .cull = cull, .level = LRB_RECORD, .jobs = 2};
+                                         .height = SIZE, .cull = cull, .light = &s->light, .level = LRB_RECORD, .jobs = 2};
                 trace_picture record = trace_run(&request);
                 request.level = LRB_NATIVE;
                 trace_picture native = trace_run(&request);

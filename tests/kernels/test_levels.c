@@ -13,13 +13,13 @@
 #include "scene/builtin.h"
 #include "tests/kernels/trace.h"
 
-enum { SIZE = 80 };
+enum { SIZE = 80, KERNELS = 4 };
 
-static const char *kernel_names[2] = {"packet16-primary", "mft-primary"};
+static const char *kernel_names[KERNELS] = {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft"};
 
 typedef struct fixture {
     scene *s;
-    bvh *tree[2]; /* by kernel */
+    bvh *tree[KERNELS]; /* by kernel */
 } fixture;
 
 static int fixture_create(void **state)
@@ -30,7 +30,7 @@ static int fixture_create(void **state)
     snprintf(spec, sizeof spec, "builtin:%s", scene_builtin_list(&count)[0].name);
     if (scene_open(spec, &f.s, NULL) != BASE_OK)
         return -1;
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < KERNELS; k++)
         f.tree[k] = trace_tree(f.s, kernel_find(kernel_names[k])->defaults.max_leaf);
     *state = &f;
     return 0;
@@ -39,8 +39,8 @@ static int fixture_create(void **state)
 static int fixture_destroy(void **state)
 {
     fixture *f = *state;
-    bvh_destroy(&f->tree[0]);
-    bvh_destroy(&f->tree[1]);
+    for (int k = 0; k < KERNELS; k++)
+        bvh_destroy(&f->tree[k]);
     scene_destroy(&f->s);
     return 0;
 }
@@ -48,13 +48,13 @@ static int fixture_destroy(void **state)
 static trace_picture picture(const fixture *f, int kernel, unsigned cull, int level, unsigned jobs)
 {
     trace_request request = {.kernel = kernel_names[kernel], .tree = f->tree[kernel], .camera = &f->s->cameras[0], .width = SIZE,
-                             .height = SIZE - 3, .cull = cull, .level = level, .jobs = jobs};
+                             .height = SIZE - 3, .cull = cull, .light = &f->s->light, .level = level, .jobs = jobs};
     return trace_run(&request);
 }
 
 static void levels__all__same_pictures_and_counts(void **state)
 {
-    for (int kernel = 0; kernel < 2; kernel++)
+    for (int kernel = 0; kernel < KERNELS; kernel++)
         for (unsigned cull = 0; cull < 2; cull++) {
             trace_picture native = picture(*state, kernel, cull, LRB_NATIVE, 1);
             for (int level = LRB_COUNT; level <= LRB_RECORD; level++) {
@@ -69,7 +69,7 @@ static void levels__all__same_pictures_and_counts(void **state)
 
 static void levels__native__nothing_accounted(void **state)
 {
-    for (int kernel = 0; kernel < 2; kernel++) {
+    for (int kernel = 0; kernel < KERNELS; kernel++) {
         trace_picture native = picture(*state, kernel, 0, LRB_NATIVE, 1);
         for (int op = 0; op < LRB_OP_COUNT; op++)
             assert_int_equal(native.ops[op], 0);
@@ -82,7 +82,7 @@ static void levels__native__nothing_accounted(void **state)
 /* Markers are no ops: only events have them. */
 static void levels__count_and_record__same_histogram(void **state)
 {
-    for (int kernel = 0; kernel < 2; kernel++)
+    for (int kernel = 0; kernel < KERNELS; kernel++)
         for (unsigned cull = 0; cull < 2; cull++) {
             trace_picture count = picture(*state, kernel, cull, LRB_COUNT, 1), record = picture(*state, kernel, cull, LRB_RECORD, 1);
             uint64_t total = 0;
@@ -104,7 +104,7 @@ static void levels__count_and_record__same_histogram(void **state)
 
 static void levels__host_threads__same_everything(void **state)
 {
-    for (int kernel = 0; kernel < 2; kernel++)
+    for (int kernel = 0; kernel < KERNELS; kernel++)
         for (int level = LRB_NATIVE; level <= LRB_RECORD; level++) {
             trace_picture one = picture(*state, kernel, 0, level, 1), three = picture(*state, kernel, 0, level, 3);
             trace_assert_equal(&one, &three, kernel_names[kernel]);
@@ -144,7 +144,8 @@ static void check_address(stream_check *s, const lrb_event *e, uint32_t bytes)
     lrb_segment scratch = {.address = LRB_SCRATCH_ADDRESS, .size = LRB_SCRATCH_BYTES};
     const kernel_job *j = s->job;
     if (!in_segment(e->aux, bytes, scratch) && !in_segment(e->aux, bytes, j->nodes) && !in_segment(e->aux, bytes, j->records) &&
-        !in_segment(e->aux, bytes, j->constants) && !in_segment(e->aux, bytes, j->tiles) && !in_segment(e->aux, bytes, j->frame))
+        !in_segment(e->aux, bytes, j->constants) && !in_segment(e->aux, bytes, j->tiles) && !in_segment(e->aux, bytes, j->frame) &&
+        !in_segment(e->aux, bytes, j->samples) && !in_segment(e->aux, bytes, j->normals) && !in_segment(e->aux, bytes, j->shadows))
         complain(s, e, "an address in no segment");
     if (e->aux % bytes != 0 && bytes <= 64)
         complain(s, e, "a misaligned address");
@@ -166,7 +167,9 @@ static void check_events(void *user, const lrb_event *events, uint32_t count)
             if (e->src[k] > s->ops)
                 complain(s, e, "a source before the stream began");
         int vector = lrb_op_kind_of((lrb_op_id)op) == LRB_KIND_VECTOR;
-        if (vector && (e->op & LRB_FORM_MEMORY || lrb_op_is_memory((lrb_op_id)op)))
+        if (op == LRB_OP_gatherd_ps) /* from elements, not from a line's beginning */
+            check_address(s, e, 4);
+        else if (vector && (e->op & LRB_FORM_MEMORY || lrb_op_is_memory((lrb_op_id)op)))
             check_address(s, e, lrb_form_bytes(e->op) ? lrb_form_bytes(e->op) : 64);
         else if (lrb_op_is_memory((lrb_op_id)op))
             check_address(s, e, op == LRB_OP_load16 ? 2 : 4);
@@ -178,12 +181,12 @@ static void check_events(void *user, const lrb_event *events, uint32_t count)
 static void stream__every_event__sources_and_addresses_valid(void **state)
 {
     const fixture *f = *state;
-    for (int kernel = 0; kernel < 2; kernel++) {
+    for (int kernel = 0; kernel < KERNELS; kernel++) {
         const kernel_info *info = kernel_find(kernel_names[kernel]);
         kernel_job *job = NULL;
         lrb_ctx *c = NULL;
         kernel_counts n = {{0}};
-        assert_int_equal(kernel_job_create(f->tree[kernel], &f->s->cameras[0], NULL, SIZE, SIZE, &info->defaults, &job, NULL), BASE_OK);
+        assert_int_equal(kernel_job_create(f->tree[kernel], &f->s->cameras[0], &f->s->light, SIZE, SIZE, &info->defaults, &job, NULL), BASE_OK);
         stream_check s = {.job = job};
         assert_int_equal(lrb_ctx_create(check_events, &s, &c, NULL), BASE_OK);
         for (uint32_t tile = 0; tile < kernel_job_tiles(job); tile++) {
@@ -203,15 +206,17 @@ static void stream__every_event__sources_and_addresses_valid(void **state)
 static void tiles__any_order__same_results(void **state)
 {
     const fixture *f = *state;
-    for (int kernel = 0; kernel < 2; kernel++) {
+    for (int kernel = 0; kernel < KERNELS; kernel++) {
         const kernel_info *info = kernel_find(kernel_names[kernel]);
         kernel_job *job[2] = {NULL, NULL};
         kernel_counts n[2] = {{{0}}, {{0}}};
         lrb_ctx *c = NULL;
         assert_int_equal(lrb_ctx_create(NULL, NULL, &c, NULL), BASE_OK);
         for (int turn = 0; turn < 2; turn++) {
-            assert_int_equal(kernel_job_create(f->tree[kernel], &f->s->cameras[0], NULL, SIZE, SIZE, &info->defaults, &job[turn], NULL), BASE_OK);
+            assert_int_equal(kernel_job_create(f->tree[kernel], &f->s->cameras[0], &f->s->light, SIZE, SIZE, &info->defaults, &job[turn], NULL), BASE_OK);
             memset(job[turn]->frame_host, 0xa5, job[turn]->frame.size);
+            if (job[turn]->shadows_host)
+                memset(job[turn]->shadows_host, 0xa5, job[turn]->shadows.size);
             uint32_t tiles = kernel_job_tiles(job[turn]);
             for (uint32_t i = 0; i < tiles; i++) {
                 lrb_ctx_begin(c);
@@ -220,6 +225,8 @@ static void tiles__any_order__same_results(void **state)
             }
         }
         assert_memory_equal(job[0]->frame_host, job[1]->frame_host, job[0]->frame.size);
+        if (job[0]->shadows_host)
+            assert_memory_equal(job[0]->shadows_host, job[1]->shadows_host, job[0]->shadows.size);
         assert_memory_equal(&n[0], &n[1], sizeof n[0]);
         kernel_job_destroy(&job[0]);
         kernel_job_destroy(&job[1]);

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/job_shadow.h"
 #include "lrbni/base/hash.h"
 #include "lrbni/base/parallel.h"
 
@@ -95,7 +96,7 @@ static void gather_worker(trace_picture *picture, const trace_worker *w, int lev
     picture->events += w->events;
 }
 
-static trace_picture picture_create(unsigned width, unsigned height)
+trace_picture trace_picture_create(unsigned width, unsigned height)
 {
     trace_picture p = {.width = width, .height = height, .pixels = (size_t)width * height};
     p.id = calloc(p.pixels, sizeof *p.id);
@@ -123,7 +124,7 @@ static kernel_job *job_create(const trace_request *request)
 
 trace_picture trace_run(const trace_request *request)
 {
-    trace_picture picture = picture_create(request->width, request->height);
+    trace_picture picture = trace_picture_create(request->width, request->height);
     kernel_job *job = job_create(request);
     trace_run_state r = {.request = request, .job = job, .tile = kernel_find(request->kernel)->tile[request->level]};
     r.workers = calloc(request->jobs, sizeof *r.workers);
@@ -179,6 +180,33 @@ void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, uns
             ray->tmin = 0.0f;
             ray->tmax = INFINITY;
         }
+    kernel_job_destroy(&job);
+}
+
+void trace_shadow_rays(const trace_request *request, const trace_picture *picture, unsigned pass, oracle_ray *rays, uint32_t *taken)
+{
+    kernel_job *job = job_create(request);
+    const job_light *light = &job->constants_host->light;
+    memset(rays, 0, 16 * picture->pixels * sizeof *rays);
+    for (size_t i = 0; i < picture->pixels; i++) {
+        unsigned x = (unsigned)(i % picture->width), y = (unsigned)(i / picture->width);
+        job_pixel p = kernel_job_pixel(job, x, y);
+        job->frame_host[p.tile].id[p.block][p.pixel] = picture->id[i];
+        job->frame_host[p.tile].t[p.block][p.pixel] = picture->t[i];
+        taken[i] = job->sample_mask;
+        for (unsigned sample = 0; sample < 16; sample++) {
+            job_shadow_ray ray;
+            if (!job_shadow_ray_of(job, x, y, pass, sample, &ray)) {
+                taken[i] = 0;
+                break;
+            }
+            oracle_ray *out = &rays[16 * i + sample];
+            memcpy(out->org, ray.org, sizeof out->org);
+            memcpy(out->dir, ray.dir, sizeof out->dir);
+            out->tmin = light->nearest;
+            out->tmax = light->farthest;
+        }
+    }
     kernel_job_destroy(&job);
 }
 

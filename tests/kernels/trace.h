@@ -38,6 +38,9 @@ typedef struct trace_request {
 /** Trace all tiles; free the result with trace_free. Any failure fails the running test. */
 trace_picture trace_run(const trace_request *request);
 
+/** A picture of zeros; free it with trace_free. Running out of memory fails the running test. */
+trace_picture trace_picture_create(unsigned width, unsigned height);
+
 /** Free what a picture holds. */
 void trace_free(trace_picture *picture);
 
@@ -46,6 +49,15 @@ bvh *trace_tree(const scene *s, unsigned max_leaf);
 
 /** The primary rays of a picture, the bits that kernels trace: width * height of them, row by row. */
 void trace_rays(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, oracle_ray *rays);
+
+/**
+ * A picture's shadow rays of one pass, the bits that kernels trace: 16 a pixel, row by row.
+ *
+ * @param request  what was traced
+ * @param rays     out, 16 * width * height; those of a pixel that traces none are 0
+ * @param taken    out, width * height: the samples that are traced, as bits
+ */
+void trace_shadow_rays(const trace_request *request, const trace_picture *picture, unsigned pass, oracle_ray *rays, uint32_t *taken);
 
 /** One pixel's result as the oracles give theirs. */
 oracle_hit trace_hit(const trace_picture *picture, size_t pixel);

@@ -107,17 +107,6 @@ int twin_intersect(const twin_triangle *triangle, int cull, const float directio
 
 /* ---- pictures ---- */
 
-static trace_picture twin_picture(unsigned width, unsigned height)
-{
-    trace_picture p = {.width = width, .height = height, .pixels = (size_t)width * height};
-    p.id = calloc(p.pixels, sizeof *p.id);
-    p.t = calloc(p.pixels, sizeof *p.t);
-    p.u = calloc(p.pixels, sizeof *p.u);
-    p.v = calloc(p.pixels, sizeof *p.v);
-    assert_true(p.id && p.t && p.u && p.v);
-    return p;
-}
-
 static void twin_put(trace_picture *p, size_t pixel, const twin_hit *hit)
 {
     p->id[pixel] = hit->id;
@@ -138,7 +127,7 @@ static kernel_job *twin_job(const bvh *tree, const scene_camera *camera, unsigne
 
 trace_picture twin_brute_force(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, int cull)
 {
-    trace_picture p = twin_picture(width, height);
+    trace_picture p = trace_picture_create(width, height);
     kernel_job *job = twin_job(tree, camera, width, height, cull);
     twin_hit *best = calloc(p.pixels, sizeof *best);
     float(*directions)[3] = calloc(p.pixels, sizeof *directions);
@@ -429,7 +418,7 @@ static void trace_tile(twin_state *s)
 
 trace_picture twin_trace(twin_kind kind, const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, int cull)
 {
-    trace_picture p = twin_picture(width, height);
+    trace_picture p = trace_picture_create(width, height);
     kernel_job *job = twin_job(tree, camera, width, height, cull);
     twin_state *s = calloc(1, sizeof *s);
     assert_non_null(s);

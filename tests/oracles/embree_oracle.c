@@ -24,6 +24,7 @@ typedef struct ray_batch {
     const oracle_ray *rays;
     size_t ray_count;
     oracle_hit *hits;
+    unsigned char *occluded; /* filled in instead of hits if it is there */
 } ray_batch;
 
 /* Embree keeps the last error of the thread and of the device; turn it into ours. */
@@ -63,7 +64,7 @@ static double normal_dot_dir(const scene_triangle *triangle, const double dir[3]
     return sum;
 }
 
-/* Called for one ray at a time, as rays are cast by rtcIntersect1: the N-wide structures are then the plain ones. */
+/* Called for one ray at a time, as rays are cast by rtcIntersect1 and rtcOccluded1: the N-wide structures are then the plain ones. */
 static void reject_backfaces(const struct RTCFilterFunctionNArguments *args)
 {
     const scene_triangle *triangles = args->geometryUserPtr;
@@ -93,8 +94,10 @@ static base_status add_triangles(embree_oracle *oracle, const scene_triangle *tr
         for (size_t i = 0; i < 3 * count; i++)
             indices[i] = (unsigned)i;
         rtcSetGeometryUserData(geometry, oracle->triangles);
-        if (oracle->triangles)
+        if (oracle->triangles) {
             rtcSetGeometryIntersectFilterFunction(geometry, reject_backfaces);
+            rtcSetGeometryOccludedFilterFunction(geometry, reject_backfaces);
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(oracle->scene, geometry, 0);
         status = check_device(oracle->device, "triangles", err);
@@ -180,6 +183,17 @@ static oracle_hit closest(RTCScene tree, const oracle_ray *ray)
     return (oracle_hit){query.hit.primID, (double)query.ray.tfar, (double)query.hit.u, (double)query.hit.v};
 }
 
+static unsigned char occluded(RTCScene tree, const oracle_ray *ray)
+{
+    struct RTCIntersectContext context;
+    struct RTCRay query = {.org_x = ray->org[0], .org_y = ray->org[1], .org_z = ray->org[2], .tnear = ray->tmin,
+                           .dir_x = ray->dir[0], .dir_y = ray->dir[1], .dir_z = ray->dir[2], .tfar = ray->tmax,
+                           .mask = 0xffffffffu};
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(tree, &context, &query);
+    return query.tfar < 0.0f; /* Embree's sign for it: -infinity */
+}
+
 static void trace_piece(void *user, size_t piece, unsigned worker)
 {
     const ray_batch *q = user;
@@ -188,13 +202,24 @@ static void trace_piece(void *user, size_t piece, unsigned worker)
     if (end > q->ray_count)
         end = q->ray_count;
     for (size_t i = piece * RAYS_PER_PIECE; i < end; i++)
-        q->hits[i] = closest(q->oracle->scene, &q->rays[i]);
+        if (q->occluded)
+            q->occluded[i] = occluded(q->oracle->scene, &q->rays[i]);
+        else
+            q->hits[i] = closest(q->oracle->scene, &q->rays[i]);
 }
 
 base_status embree_oracle_closest(const embree_oracle *oracle, const oracle_ray *rays, size_t ray_count,
                                   oracle_hit *hits, base_error *err)
 {
-    ray_batch q = {oracle, rays, ray_count, hits};
+    ray_batch q = {.oracle = oracle, .rays = rays, .ray_count = ray_count, .hits = hits};
+    base_parallel_for(oracle->jobs, (ray_count + RAYS_PER_PIECE - 1) / RAYS_PER_PIECE, trace_piece, &q);
+    return check_device(oracle->device, "rays", err);
+}
+
+base_status embree_oracle_occluded(const embree_oracle *oracle, const oracle_ray *rays, size_t ray_count, unsigned char *occluded,
+                                   base_error *err)
+{
+    ray_batch q = {.oracle = oracle, .rays = rays, .ray_count = ray_count, .occluded = occluded};
     base_parallel_for(oracle->jobs, (ray_count + RAYS_PER_PIECE - 1) / RAYS_PER_PIECE, trace_piece, &q);
     return check_device(oracle->device, "rays", err);
 }

@@ -1,4 +1,4 @@
-/* Closest hits by Embree 3: an independent ray tracer that is fast enough for whole pictures of large scenes.
+/* Closest hits and occlusion by Embree 3: an independent ray tracer that is fast enough for whole pictures of large scenes.
  *
  * Embree works in float, so it is not always right: hit_judge.h decides where it disagrees. Its robust mode is used.
  * Embree's manual recommends to flush denormals to zero while it runs; that is not done, the host's floating-point
@@ -42,5 +42,15 @@ void embree_oracle_destroy(embree_oracle **oracle);
  */
 base_status embree_oracle_closest(const embree_oracle *oracle, const oracle_ray *rays, size_t ray_count,
                                   oracle_hit *hits, base_error *err);
+
+/**
+ * Whether anything is hit in each ray's range, by rtcOccluded1.
+ *
+ * @param occluded  out, ray_count: 1 or 0
+ *
+ * Errors: BASE_ERR_UNSUPPORTED with Embree's words.
+ */
+base_status embree_oracle_occluded(const embree_oracle *oracle, const oracle_ray *rays, size_t ray_count, unsigned char *occluded,
+                                   base_error *err);
 
 #endif

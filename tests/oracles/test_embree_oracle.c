@@ -56,6 +56,32 @@ static void closest__nothing_there__no_hit(void **state)
     assert_int_equal(cast((oracle_ray){{0.25f, 0.25f, 2}, {0, 0, -1}, 0, INFINITY}, 0).id, 1);
 }
 
+/* What closest finds in a range, or does not, is what occludes it. */
+static void occluded__two_planes__as_closest(void **state)
+{
+    static const oracle_ray rays[] = {
+        {{0.25f, 0.5f, 2}, {0, 0, -2}, 0, INFINITY}, {{0.25f, 0.5f, 2}, {0, 0, -2}, 0, 0.5f},  {{0.25f, 0.5f, 2}, {0, 0, -2}, 0.5f, 1},
+        {{0.25f, 0.5f, 2}, {0, 0, -2}, 0, 0.75f},    {{0.25f, 0.5f, 2}, {0, 0, -2}, 0.75f, 2}, {{0.75f, 0.75f, 2}, {0, 0, -1}, 0, 9},
+        {{0.25f, 0.5f, -1}, {0, 0, 1}, 0, 1.5f},     {{0.25f, 0.5f, -1}, {0, 0, 1}, 0, 9},     {{0.25f, 0.5f, 0.5f}, {0, 0, 1}, 0, 9}};
+    enum { RAYS = sizeof rays / sizeof *rays };
+    (void)state;
+    for (int cull = 0; cull < 2; cull++) {
+        embree_oracle *oracle;
+        oracle_hit hits[RAYS];
+        unsigned char occluded[RAYS];
+        int some = 0;
+        assert_int_equal(embree_oracle_create(STACK, sizeof STACK / sizeof *STACK, cull, 1, &oracle, NULL), BASE_OK);
+        assert_int_equal(embree_oracle_closest(oracle, rays, RAYS, hits, NULL), BASE_OK);
+        assert_int_equal(embree_oracle_occluded(oracle, rays, RAYS, occluded, NULL), BASE_OK);
+        for (int i = 0; i < RAYS; i++) {
+            assert_int_equal(occluded[i], hits[i].id != ORACLE_NO_HIT);
+            some += occluded[i];
+        }
+        assert_in_range(some, 2, RAYS - 2);
+        embree_oracle_destroy(&oracle);
+    }
+}
+
 static void create__no_triangles__no_hits(void **state)
 {
     embree_oracle *oracle;
@@ -86,6 +112,7 @@ int main(void)
         cmocka_unit_test(closest__two_planes__nearest_id_t_u_v),
         cmocka_unit_test(closest__culling__the_front_behind),
         cmocka_unit_test(closest__nothing_there__no_hit),
+        cmocka_unit_test(occluded__two_planes__as_closest),
         cmocka_unit_test(create__no_triangles__no_hits),
         cmocka_unit_test(create__too_many_triangles__usage_error),
     };
