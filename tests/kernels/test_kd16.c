@@ -243,7 +243,7 @@ static int blocked(const scene *s, const double light[3], const double d[3])
             na += n[k] * a[0][k];
         }
         double t = na / (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]);
-        if (fabs(sum) > 1e-5 * size && (t < 0 || t > 1.001))
+        if (fabs(sum) > 1e-5 * size && (t < 0 || t > 1.00001))
             continue;
         if (fabs(sum) > 1e-5 * size && fmin(fabs(least), fabs(most)) > 1e-6 * size && t > 1e-3 && t < 0.999)
             return 1;
