@@ -334,7 +334,7 @@ static void shadows__usual_scenes_hard_views__same_from_entry_points(void **stat
                 origins[0][axis] = rays.origin[axis];
                 origins[1][axis] = (float)st.s->light.point[axis];
             }
-            assert_int_equal(kdtree_mark_occluders(st.kdtree, origins, 2, NULL), BASE_OK);
+            assert_int_equal(kdtree_mark_occluders(st.kdtree, (const float(*)[3])origins, 2, NULL), BASE_OK);
             trace_picture root = run(&st, "kd16-shadow", &v.camera[k], 0, NULL), entry = run(&st, "mlrta-shadow", &v.camera[k], 0, NULL);
             trace_assert_equal(&root, &entry, v.camera[k].name);
             trace_free(&root);
