@@ -41,7 +41,13 @@ static double brightness(const run_result *r, uint32_t id, double t, const doubl
     return (double)ambient + (double)headlight * fabs(dot(n, view)) + (1.0 - (double)ambient - (double)headlight) * direct;
 }
 
-/* The filtered visibility, or 1 for kernels without shadows; NULL if out of memory. */
+/* The fraction of the light that a pixel's hit sees, as it was traced; 1 for kernels without shadows. */
+static float visibility(const kernel_job *job, job_pixel p)
+{
+    return job->shadows_host ? job->shadows_host[p.tile].visibility[p.block][p.pixel] : 1.0f;
+}
+
+/* The visibility by pixel, that of soft shadows filtered; NULL if out of memory. */
 static float *seen_light(const kernel_job *job, base_error *err)
 {
     const size_t pixels = (size_t)job->width * job->height;
@@ -51,8 +57,8 @@ static float *seen_light(const kernel_job *job, base_error *err)
         return NULL;
     }
     for (size_t i = 0; i < pixels; i++)
-        seen[i] = 1;
-    if (job->shadows_host)
+        seen[i] = visibility(job, kernel_job_pixel(job, (unsigned)(i % job->width), (unsigned)(i / job->width)));
+    if (job->sample_passes > 0)
         visibility_filter(job, seen);
     return seen;
 }
@@ -98,7 +104,7 @@ base_status picture_write_aov(const run_result *r, const char *path, base_error 
             u[i] = tile->u[p.block][p.pixel];
             v[i] = tile->v[p.block][p.pixel];
             prim[i] = tile->id[p.block][p.pixel];
-            seen[i] = shadows ? r->job->shadows_host[p.tile].visibility[p.block][p.pixel] : 1;
+            seen[i] = visibility(r->job, p);
         }
         const report_channel channels[] = {
             {"Z", REPORT_CHANNEL_FLOAT, z},

@@ -329,7 +329,7 @@ static base_status build_kdtree(run_result *r, base_error *err)
     }
     base_status status = kdtree_build(r->scene, &options, &r->kdtree, err);
     if (status == BASE_OK && params->empty_occluders)
-        status = kdtree_mark_occluders(r->kdtree, origins, params->hard_shadows ? 2 : 1, err);
+        status = kdtree_mark_occluders(r->kdtree, (const float(*)[3])origins, params->hard_shadows ? 2 : 1, err);
     return status;
 }
 

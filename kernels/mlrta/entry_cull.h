@@ -13,13 +13,12 @@
 #undef LRB_SOURCE
 #define LRB_SOURCE KERNEL_SOURCE_ENTRY_CULL
 
-/* Sum over the first three groups of four, in each of them. */
+/* Sum over the first three groups of four, in all groups: in one order, so that its rounding, and its sign, is the same in all. */
 LRB_INLINE lrb_v16f entry_axes_sum(lrb_ctx *c, lrb_v16f v)
 {
-    lrb_v16f second = lrb_shuf128x32_ps(c, v, 0xc9, LRB_DCBA);
-    lrb_v16f third = lrb_shuf128x32_ps(c, v, 0xd2, LRB_DCBA);
-    second = lrb_add_ps(c, v, second);
-    return lrb_add_ps(c, second, third);
+    lrb_v16f sum = lrb_shuf128x32_ps(c, v, 0x00, LRB_DCBA);
+    sum = lrb_add_ps(c, sum, lrb_shuf128x32_ps(c, v, 0x55, LRB_DCBA));
+    return lrb_add_ps(c, sum, lrb_shuf128x32_ps(c, v, 0xaa, LRB_DCBA));
 }
 
 /*

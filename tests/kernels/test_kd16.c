@@ -243,7 +243,7 @@ static int blocked(const scene *s, const double light[3], const double d[3])
             na += n[k] * a[0][k];
         }
         double t = na / (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]);
-        if (fabs(sum) > 1e-5 * size && (t < 0 || t > 1.001))
+        if (fabs(sum) > 1e-5 * size && (t < 0 || t > 1.00001))
             continue;
         if (fabs(sum) > 1e-5 * size && fmin(fabs(least), fabs(most)) > 1e-6 * size && t > 1e-3 && t < 0.999)
             return 1;
@@ -334,7 +334,7 @@ static void shadows__usual_scenes_hard_views__same_from_entry_points(void **stat
                 origins[0][axis] = rays.origin[axis];
                 origins[1][axis] = (float)st.s->light.point[axis];
             }
-            assert_int_equal(kdtree_mark_occluders(st.kdtree, origins, 2, NULL), BASE_OK);
+            assert_int_equal(kdtree_mark_occluders(st.kdtree, (const float(*)[3])origins, 2, NULL), BASE_OK);
             trace_picture root = run(&st, "kd16-shadow", &v.camera[k], 0, NULL), entry = run(&st, "mlrta-shadow", &v.camera[k], 0, NULL);
             trace_assert_equal(&root, &entry, v.camera[k].name);
             trace_free(&root);
