@@ -190,8 +190,6 @@ static void build_slivers(stability_scene *s)
         for (int k = 0; k < 3; k++) {
             v[1][k] = i % 8 == 7 ? v[0][k] : v[0][k] + size * along[k];
             v[2][k] = i % 8 == 6 ? v[0][k] + 2 * (v[1][k] - v[0][k]) : v[0][k] + size * other[k];
-            if (i % 8 == 6)
-                v[0][k] = (double)(float)v[0][k];
         }
         stability_add_placed(s, v);
     }
