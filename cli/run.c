@@ -1,6 +1,7 @@
 #include "cli/run.h"
 
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +10,7 @@
 #include "cli/run_core.h"
 #include "cli/run_sample.h"
 #include "cli/run_trace.h"
+#include "kernels/accel/kdtree_file.h"
 #include "lrbni/base/parallel.h"
 #include "sim/count.h"
 
@@ -327,7 +329,10 @@ static base_status build_kdtree(run_result *r, base_error *err)
         origins[0][axis] = rays.origin[axis];
         origins[1][axis] = (float)r->scene->light.point[axis];
     }
-    base_status status = kdtree_build(r->scene, &options, &r->kdtree, err);
+    base_error note;
+    base_status status = kdtree_open(r->scene, &options, r->options.cache, &r->kdtree, &note, err);
+    if (status == BASE_OK && note.status != BASE_OK)
+        fprintf(stderr, "lanetrace: note: %s: %s; the kd-tree was built anew\n", note.what, note.why);
     if (status == BASE_OK && params->empty_occluders)
         status = kdtree_mark_occluders(r->kdtree, (const float(*)[3])origins, params->hard_shadows ? 2 : 1, err);
     return status;

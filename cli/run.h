@@ -35,6 +35,7 @@ typedef struct run_options {
     bool keep_tile_counts; /* fill tile_counts of the result */
     bool progress;         /* a bar on stderr */
     const char *trace;     /* file to record the events to, or NULL */
+    const char *cache;     /* folder that keeps kd-trees (kernels/accel/kdtree_file.h), or NULL */
     bool profile, registers; /* fill these of the result: the annotated kernel, which must be there, is run. RUN_ISSUE and RUN_CORE, without a trace */
 } run_options;
 

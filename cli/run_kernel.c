@@ -18,7 +18,7 @@
 enum {
     KEY_SCENE = 256, KEY_CAMERA, KEY_SIZE, KEY_SAMPLES, KEY_LIGHT_SCALE, KEY_MODEL, KEY_MACHINE, KEY_SET, KEY_PARAM,
     KEY_ERROR, KEY_JOBS, KEY_STATS, KEY_IMAGE, KEY_AOV, KEY_HEATMAP, KEY_HEATMAP_OF, KEY_TRACE, KEY_STAT, KEY_ANNOTATE,
-    KEY_CALLGRIND, KEY_REGISTERS
+    KEY_CALLGRIND, KEY_REGISTERS, KEY_CACHE
 };
 
 static const struct argp_option option_table[] = {
@@ -33,6 +33,7 @@ static const struct argp_option option_table[] = {
     {"param", KEY_PARAM, "KEY=VALUE", 0, "override a parameter of the kernel; repeatable", 2},
     {"error", KEY_ERROR, "E", 0, "simulate in core only as many tiles as bound the relative error of the cycles by E (95%); default 0: all", 2},
     {"jobs", KEY_JOBS, "N", 0, "host threads; results do not depend on it; default: all", 2},
+    {"cache", KEY_CACHE, "DIR", 0, "keep kd-trees in DIR: what was built once is read the next time", 2},
     {"stats", KEY_STATS, "FILE", 0, "JSON statistics, - for stdout; default: a table on stdout", 3},
     {"stat", KEY_STAT, "FILE", OPTION_ARG_OPTIONAL, "a listing in the manner of perf stat; default: on stdout", 3},
     {"annotate", KEY_ANNOTATE, "FILE", OPTION_ARG_OPTIONAL, "the kernel's source with cycles in the margin; default: on stdout", 3},
@@ -49,7 +50,7 @@ static const struct argp_option option_table[] = {
 typedef struct arguments {
     base_error *err;
     const char *kernel, *scene, *camera, *size, *model, *machine, *jobs, *stats, *image, *aov, *heatmap, *heatmap_of, *trace;
-    const char *light_scale, *samples, *error, *stat, *annotate, *callgrind;
+    const char *light_scale, *samples, *error, *stat, *annotate, *callgrind, *cache;
     bool registers;
     command_list sets, params;
 } arguments;
@@ -67,6 +68,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_MACHINE: a->machine = text; return 0;
     case KEY_ERROR: a->error = text; return 0;
     case KEY_JOBS: a->jobs = text; return 0;
+    case KEY_CACHE: a->cache = text; return 0;
     case KEY_STATS: a->stats = text; return 0;
     case KEY_STAT: a->stat = text ? text : "-"; return 0;
     case KEY_ANNOTATE: a->annotate = text ? text : "-"; return 0;
@@ -223,10 +225,13 @@ static base_status make_plan(const arguments *a, plan *p, base_error *err)
         status = plan_analyses(a, p, err);
     if (status == BASE_OK)
         status = command_machine(a->machine ? a->machine : "larrabee", &a->sets, &p->machine, err);
+    if (status == BASE_OK && a->cache && p->run.kernel->accel != KERNEL_ACCEL_KDTREE)
+        status = base_fail(err, BASE_ERR_USAGE, "--cache", "keeps kd-trees; kernel %s has none", p->run.kernel->name);
     if (status == BASE_OK)
         status = check_outputs(a, err);
     p->run.camera = a->camera;
     p->run.trace = a->trace;
+    p->run.cache = a->cache;
     p->run.progress = true;
     return status;
 }

@@ -38,6 +38,7 @@ def usage__wrong_words__one_line_and_exit_2(folder):
     fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap-of', 'aabb_tests'], '--heatmap-of')
     fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap', folder + '/h.png', '--heatmap-of', 'units_packets'], 'units_packets')
     fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap', folder + '/h.png', '--model', 'native'], '--heatmap')
+    fails(['run-kernel', 'mft-primary', *SMALL, '--cache', folder], '--cache')
     fails(['regress', 'mft-table9'], 'mft-table9')
     fails(['kernels', 'all'], 'all')
     fails(['machines', 'pentium'], 'pentium')
@@ -182,6 +183,21 @@ def stats__parameters__reach_the_kernel(folder):
     both, front = (stats_of('packet16-primary', *SMALL, '--param', 'cull_backface=' + n) for n in '01')
     assert both['counts']['tri_after_culling'] == both['counts']['tri_accesses']
     assert front['counts']['tri_after_culling'] < front['counts']['tri_accesses']
+
+
+def cache__second_run__reads_what_the_first_wrote(folder):
+    cache = folder + '/trees'
+    words = ['run-kernel', 'kd16-primary', *SMALL, '--model', 'native', '--cache', cache, '--stats', '-']
+    plain = stats_of('kd16-primary', *SMALL, '--model', 'native')
+    for damage in (False, False, True, False):
+        if damage:
+            path = os.path.join(cache, os.listdir(cache)[0])
+            with open(path, 'r+b') as file:
+                file.truncate(100)
+        result = run(*words)
+        assert result.returncode == 0 and json.loads(result.stdout)['counts'] == plain['counts'], result.stderr
+        assert ('lanetrace: note: ' in result.stderr) == damage == (cache in result.stderr), result.stderr
+        assert len(os.listdir(cache)) == 1
 
 
 def soft__counts_and_parameters__those_of_shadows(folder):
