@@ -52,6 +52,18 @@ static void check(const kernel_info *kernel, const char *scene_name, const sim_r
     }
 }
 
+/* Every way to shrink frusta, on the smallest scene. */
+static void check_shrinking(const kernel_info *kernel, const char *scene_name, const bvh *tree, const scene *s, kernel_counts *n)
+{
+    kernel_params params = kernel->defaults;
+    if (!(kernel->params >> KERNEL_PARAM_SHRINK & 1) || s->triangle_count > 10000)
+        return;
+    for (params.shrink = KERNEL_SHRINK_CORNERS; params.shrink <= KERNEL_SHRINK_RAYS; params.shrink++) {
+        sim_registers_stats stats = analyse(kernel, &params, tree, s, n);
+        check(kernel, scene_name, &stats);
+    }
+}
+
 static void registers__every_kernel_and_scene__nothing_spilled(void **state)
 {
     size_t kernels, scenes;
@@ -72,6 +84,7 @@ static void registers__every_kernel_and_scene__nothing_spilled(void **state)
                 sim_registers_stats stats = analyse(&kernel[k], &params, tree, s, &n);
                 check(&kernel[k], builtin[i].name, &stats);
             }
+            check_shrinking(&kernel[k], builtin[i].name, tree, s, &n);
             bvh_destroy(&tree);
         }
         scene_destroy(&s);
