@@ -63,6 +63,7 @@ LRB_INLINE void mft_soft_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr box, lr
     const mft_soft *g = user;
     lrb_r64 updated = lrb_imm(0);
     if (g->shrink == KERNEL_SHRINK_RAYS) {
+        lrb_phase(c, KERNEL_PHASE_CULLING);
         m = shrink_leaf(c, s, &g->w, box, m, g->pass);
         if (lrb_jz(c, lrb_kortest(c, m, m)))
             return;

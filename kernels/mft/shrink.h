@@ -133,38 +133,56 @@ LRB_INLINE void shrink_frusta(lrb_ctx *c, slab16 *s, const shadow16 *w, kernel_s
     }
 }
 
+/* One axis of the tight test, for rays d that are cones of `slack`: later entry, earlier exit. Axis by axis, because eight mask
+   registers hold no more. */
+LRB_INLINE void shrink_ray_axis(lrb_ctx *c, slab16 *rays, lrb_ptr constants, lrb_ptr box, int axis, lrb_k16 m, lrb_v16f d, lrb_v16f slack,
+                                lrb_v16f *entry, lrb_v16f *exit)
+{
+    lrb_s3f planes[2];
+    lrb_v16f lo = lrb_sub_ps(c, d, slack);
+    lrb_v16f hi = lrb_add_ps(c, d, slack);
+    lrb_k16 negative = lrb_mask_cmplt_ps(c, m, hi, rays->zero);
+    rays->far_rcp[axis] = rays16_reciprocal(c, lrb_mask_mov_ps(c, lo, negative, hi));
+    rays->strict[axis] = lrb_kor(c, negative, lrb_mask_cmplt_ps(c, m, rays->zero, lo));
+    hi = lrb_max_ps_s3(c, hi, lrb_1to16_ps(RAYS16_CONSTANT(constants, tiny)));
+    lo = lrb_min_ps_s3(c, lo, lrb_1to16_ps(RAYS16_CONSTANT(constants, minus_tiny)));
+    rays->near_rcp[axis] = rays16_reciprocal(c, hi);
+    rays->back_rcp[axis] = rays16_reciprocal(c, lo);
+    slab16_planes(c, rays, SLAB16_ZERO, box, axis, 0, planes);
+    *entry = lrb_max_ps(c, *entry, slab16_entry(c, rays, SLAB16_ZERO, planes, axis));
+    *exit = lrb_min_ps(c, *exit, slab16_exit(c, rays, SLAB16_ZERO, planes, axis));
+}
+
 /* Whether one of frustum f's rays that are left meets a leaf's box: the tight test, whatever their signs. */
 LRB_INLINE bool shrink_meets(lrb_ctx *c, const slab16 *s, const shadow16 *w, lrb_ptr box, lrb_r64 f, lrb_r64 pass)
 {
     _Static_assert(SCRATCH_BOXES == 0, "a box anywhere stands where slab16 looks for one in scratch");
-    slab16 rays = {.own_origins = true, .path = SLAB16_ZERO, .limit = s->limit};
-    lrb_v16f lo[3], hi[3], entry;
+    slab16 rays = {.own_origins = true, .path = SLAB16_ZERO, .zero = s->zero, .infinity = s->infinity};
+    lrb_v16f d[3], entry = s->zero, exit = s->limit;
     lrb_ptr lane = lrb_lea(c, w->scratch, f, 4, 0);
     lrb_k16 left = shrink_left(c, lane);
-    shadow16_rays(c, lane, shadow16_set(c, w, f, pass), lo);
-    for (int axis = 0; axis < 3; axis++) {
-        hi[axis] = lo[axis];
-        rays.origin[axis] = lrb_load_1to16_ps(c, lrb_at(lane, SCRATCH_HIT_POINTS + 64 * axis));
-    }
+    shadow16_rays(c, lane, shadow16_set(c, w, f, pass), d);
     lrb_v16f slack = lrb_load_1to16_ps(c, lrb_at(lane, SCRATCH_LIGHT_SLACK));
-    slab16_widen(c, &rays, w->constants, box, slack, left, lo, hi);
-    slab16_setup_zero(c, &rays, w->constants, lo, hi);
     w->n->n[KERNEL_aabb_tests]++;
-    lrb_k16 hit = slab16_test(c, &rays, SLAB16_ZERO, box, 0, left, &entry);
+    for (int axis = 0; axis < 3; axis++) {
+        rays.origin[axis] = lrb_load_1to16_ps(c, lrb_at(lane, SCRATCH_HIT_POINTS + 64 * axis));
+        shrink_ray_axis(c, &rays, w->constants, box, axis, left, d[axis], slack, &entry, &exit);
+    }
+    lrb_k16 hit = lrb_mask_cmple_ps(c, left, entry, exit);
     return !lrb_jz(c, lrb_kortest(c, hit, hit));
 }
 
 /** Before a leaf: the frusta of m without those, partly blocked, none of whose rays that are left meets its box. */
 LRB_INLINE lrb_k16 shrink_leaf(lrb_ctx *c, const slab16 *s, const shadow16 *w, lrb_ptr box, lrb_k16 m, lrb_r64 pass)
 {
-    lrb_r64 bits = lrb_kmov_rk(c, m), kept = bits;
-    lrb_r64 f = lrb_bsfi(c, lrb_imm(UINT64_MAX), bits);
+    lrb_r64 kept = lrb_kmov_rk(c, m);
+    lrb_r64 f = lrb_bsfi(c, lrb_imm(UINT64_MAX), kept);
     do {
         lrb_r64 occlusion = lrb_load32(c, lrb_at(lrb_lea(c, w->scratch, f, 4, 0), SCRATCH_OCCLUSION));
         if (!lrb_jz(c, lrb_cmp(c, occlusion, lrb_imm(0xffffu & ~w->sample_mask))))
             if (!shrink_meets(c, s, w, box, f, pass))
                 kept = lrb_xor(c, kept, lrb_bts(c, lrb_imm(0), f));
-        f = lrb_bsfi(c, f, bits);
+        f = lrb_bsfi(c, f, kept); /* bits before f do not matter */
     } while (!lrb_jl(c, lrb_test(c, f, f)));
     return lrb_kmov_kr(c, kept);
 }

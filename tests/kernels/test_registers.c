@@ -52,6 +52,18 @@ static void check(const kernel_info *kernel, const char *scene_name, const sim_r
     }
 }
 
+/* Every way to shrink frusta, on the smallest scene. */
+static void check_shrinking(const kernel_info *kernel, const trace_trees *trees, const scene *s, kernel_counts *n)
+{
+    kernel_params params = kernel->defaults;
+    if (!(kernel->params >> KERNEL_PARAM_SHRINK & 1) || s->triangle_count > 10000)
+        return;
+    for (params.shrink = KERNEL_SHRINK_CORNERS; params.shrink <= KERNEL_SHRINK_RAYS; params.shrink++) {
+        sim_registers_stats stats = analyse(kernel, &params, trees, s, n);
+        check(kernel, s->name, &stats);
+    }
+}
+
 static void registers__every_kernel_usual_scenes__nothing_spilled(void **state)
 {
     size_t kernels, scenes;
@@ -70,6 +82,7 @@ static void registers__every_kernel_usual_scenes__nothing_spilled(void **state)
                 sim_registers_stats stats = analyse(&kernel[k], &params, &trees, s, &n);
                 check(&kernel[k], s->name, &stats);
             }
+            check_shrinking(&kernel[k], &trees, s, &n);
             trace_trees_destroy(&trees);
         }
         scene_destroy(&s);

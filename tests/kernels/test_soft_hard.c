@@ -1,5 +1,5 @@
-/* Soft shadows where they are hard: lights edge-on, behind, near, tiny, of no size (B9, B10), rays left over (B11, B13), and pictures
- * whose shadows have a formula.
+/* Soft shadows where they are hard: lights edge-on, behind, near, tiny, of no size (B9, B10), rays left over (B11, B13), all blocked at
+ * once (A4), and pictures whose shadows have a formula.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -269,6 +269,35 @@ static void b11__bars_one_by_one__all_ways_agree(void **state)
     soup_free(&s);
 }
 
+/* A4: all rays of a packet, or a block, are blocked by the nearest of many blockers; none of the others is looked at. */
+static void a4__all_blocked_at_once__traversal_ends(void **state)
+{
+    enum { LAYERS = 64 };
+    static const double eye[3] = {0.013, 0.4, 0.021}, target[3] = {0.013, 0, 0.02}, up[3] = {0, 0, -1};
+    const scene_camera camera = scene_camera_look_at("below the blockers", eye, target, up, 0.6);
+    scene s = ground(10, 2 * LAYERS);
+    (void)state;
+    for (int i = 0; i < LAYERS; i++)
+        put_rectangle(&s, 2 + 2 * (size_t)i, -8, -8, 8, 8, 0.5f + 0.05f * (float)i);
+    s.light = square_light(0.3, 5, 0.2, 1);
+    for (int way = 0; way < WAYS; way++) {
+        bvh *tree = trace_tree(&s, way ? 8 : 2);
+        trace_request primary = {.kernel = way ? "mft-primary" : "packet16-primary", .tree = tree, .camera = &camera, .width = SIZE,
+                                 .height = SIZE, .level = LRB_NATIVE, .jobs = 1};
+        trace_picture before = trace_run(&primary), p = trace_way(way, &s, &camera, 16, 1);
+        const uint64_t units = p.counts.n[way ? KERNEL_units_shadow_groups : KERNEL_units_shadow_packets];
+        for (size_t i = 0; i < p.pixels; i++)
+            assert_true(p.visibility[i] == 0 && p.occlusion[i] == 0xffff);
+        assert_true(units > 0);
+        /* of a leaf on the way out and of the one that blocks, at most */
+        assert_true(p.counts.n[KERNEL_tri_accesses] - before.counts.n[KERNEL_tri_accesses] <= 2 * (way ? 8 : 2) * units);
+        trace_free(&before);
+        trace_free(&p);
+        bvh_destroy(&tree);
+    }
+    soup_free(&s);
+}
+
 /* A surface does not shadow itself: a tilted plane and a light at grazing height (X9). */
 static void x9__plane_and_grazing_light__no_acne(void **state)
 {
@@ -293,6 +322,7 @@ int main(void)
         cmocka_unit_test(penumbra__straight_edge__as_the_formula),
         cmocka_unit_test(samples__four__those_of_sixteen),
         cmocka_unit_test(b11__bars_one_by_one__all_ways_agree),
+        cmocka_unit_test(a4__all_blocked_at_once__traversal_ends),
         cmocka_unit_test(x9__plane_and_grazing_light__no_acne),
     };
     return cmocka_run_group_tests_name("soft_hard", tests, NULL, NULL);
