@@ -13,29 +13,50 @@
 
 enum { HARD_NORMALS = 3 * 64 }; /* of a block's normals, behind its directions */
 
-/* A tile's shadows; all but the first three are of one of its blocks. */
+/* A tile's shadows. Which tile and block it is lies in scratch: while packets are traced registers do not suffice for pointers. */
 typedef struct hard_shadow {
+    const kernel_job *job;
     lrb_ptr camera;  /* constants of the primary rays */
     lrb_ptr normals; /* by triangle */
     kernel_shadow_packets packets;
+    /* Of a block: */
     lrb_ptr first;  /* direction of its first pixel in scratch, by axis */
-    lrb_ptr word;   /* its word of HARD_ALIVE and HARD_HITS, less their offsets */
     lrb_ptr rays;   /* its rays in scratch */
     lrb_ptr frame, shadows;
     lrb_ptr pixels; /* its pixels in the image */
 } hard_shadow;
 
+/* Words of ENTRY_LOOP, and of the block's in HARD_ALIVE and HARD_HITS. */
+enum { HARD_TILE = 8, HARD_INDEX, HARD_NODE, HARD_X, HARD_Y };
+#define HARD_LOOP(k, word) lrb_at((k)->scratch, ENTRY_LOOP + 4 * (word))
+#define HARD_WORD(h, place) lrb_at((h)->first, (place) - SCRATCH_CORNERS)
+
+/* The block that scratch names. */
+LRB_INLINE void hard_shadow_here(lrb_ctx *c, hard_shadow *h, const kd16 *k)
+{
+    lrb_r64 tile = lrb_load32(c, HARD_LOOP(k, HARD_TILE)), block = lrb_load32(c, HARD_LOOP(k, HARD_INDEX));
+    lrb_r64 line = lrb_shl(c, block, 6);
+    h->first = lrb_lea(c, k->scratch, block, 4, SCRATCH_CORNERS);
+    h->rays = lrb_lea(c, k->scratch, lrb_imul(c, block, lrb_imm(HARD_BLOCK)), 1, HARD_RAYS);
+    h->frame = lrb_lea(c, lrb_segment_at(h->job->frame, 0), lrb_add(c, lrb_shl(c, tile, 12), line), 1, 0);
+    h->shadows = lrb_lea(c, lrb_segment_at(h->job->shadows, 0), lrb_add(c, lrb_shl(c, tile, 11), line), 1, 0);
+    h->pixels = lrb_lea(c, lrb_segment_at(h->job->tiles, 0), lrb_shl(c, tile, 6), 1, (int32_t)offsetof(job_tile, pixels));
+    h->pixels = lrb_lea(c, h->pixels, block, 2, 0);
+}
+
 /** The first block of a tile. */
+LRB_INLINE void hard_shadow_first(lrb_ctx *c, hard_shadow *h, const kd16 *k)
+{
+    lrb_store32(c, HARD_LOOP(k, HARD_INDEX), lrb_imm(0));
+    hard_shadow_here(c, h, k);
+}
+
 LRB_INLINE hard_shadow hard_shadow_of(lrb_ctx *c, const kernel_job *job, const kd16 *k, lrb_r64 tile)
 {
-    hard_shadow h = {.camera = lrb_segment_at(job->constants, 0), .normals = lrb_segment_at(job->normals, 0)};
+    hard_shadow h = {.job = job, .camera = lrb_segment_at(job->constants, 0), .normals = lrb_segment_at(job->normals, 0)};
     h.packets = (kernel_shadow_packets)job->params.shadow_packets;
-    h.first = lrb_lea(c, k->scratch, lrb_imm(0), 1, SCRATCH_CORNERS);
-    h.word = k->scratch;
-    h.rays = lrb_lea(c, k->scratch, lrb_imm(0), 1, HARD_RAYS);
-    h.frame = lrb_lea(c, lrb_segment_at(job->frame, 0), lrb_shl(c, tile, 12), 1, 0);
-    h.shadows = lrb_lea(c, lrb_segment_at(job->shadows, 0), lrb_shl(c, tile, 11), 1, 0);
-    h.pixels = lrb_lea(c, lrb_segment_at(job->tiles, 0), lrb_shl(c, tile, 6), 1, (int32_t)offsetof(job_tile, pixels));
+    lrb_store32(c, HARD_LOOP(k, HARD_TILE), tile);
+    hard_shadow_first(c, &h, k);
     return h;
 }
 
@@ -45,14 +66,12 @@ _Static_assert(sizeof(job_frame_tile) == 1 << 12 && sizeof(job_shadow_tile) == 1
 /** From one block to the next; false after the last. */
 LRB_INLINE bool hard_shadow_next(lrb_ctx *c, hard_shadow *h, const kd16 *k)
 {
-    lrb_ptr last = lrb_lea(c, k->scratch, lrb_imm(0), 1, SCRATCH_CORNERS + 64);
-    h->first = lrb_lea(c, h->first, lrb_imm(0), 1, 4);
-    h->word = lrb_lea(c, h->word, lrb_imm(0), 1, 4);
-    h->rays = lrb_lea(c, h->rays, lrb_imm(0), 1, HARD_BLOCK);
-    h->frame = lrb_lea(c, h->frame, lrb_imm(0), 1, 64);
-    h->shadows = lrb_lea(c, h->shadows, lrb_imm(0), 1, 64);
-    h->pixels = lrb_lea(c, h->pixels, lrb_imm(0), 1, 2);
-    return lrb_jb(c, lrb_cmp_ptr(c, h->first, last));
+    lrb_r64 block = lrb_add(c, lrb_load32(c, HARD_LOOP(k, HARD_INDEX)), lrb_imm(1));
+    if (!lrb_jb(c, lrb_cmp(c, block, lrb_imm(16))))
+        return false;
+    lrb_store32(c, HARD_LOOP(k, HARD_INDEX), block);
+    hard_shadow_here(c, h, k);
+    return true;
 }
 
 /* Unit normals of the triangles that the lanes of m have hit, on the viewer's side. */
@@ -159,22 +178,24 @@ LRB_INLINE void hard_shadow_begin(lrb_ctx *c, const hard_shadow *h, const kd16 *
         alive = hard_shadow_rays(c, h, k, zero, t, hits);
     k->n->n[KERNEL_rays] += (unsigned)__builtin_popcount(alive.bits);
     k->n->n[KERNEL_rays_shadow] += (unsigned)__builtin_popcount(alive.bits);
-    lrb_store32(c, lrb_at(h->word, HARD_HITS), lrb_kmov_rk(c, hits));
-    lrb_store32(c, lrb_at(h->word, HARD_ALIVE), lrb_kmov_rk(c, alive));
+    lrb_store32(c, HARD_WORD(h, HARD_HITS), lrb_kmov_rk(c, hits));
+    lrb_store32(c, HARD_WORD(h, HARD_ALIVE), lrb_kmov_rk(c, alive));
 }
 
-/** Trace the rays of a block from a node, part by part; `nothing`: they all arrive. */
-LRB_INLINE void hard_shadow_end(lrb_ctx *c, const hard_shadow *h, kd16 *k, lrb_r64 start, bool nothing)
+/** Trace the rays of a block from the node in scratch, or the root, part by part; `nothing`: they all arrive. */
+LRB_INLINE void hard_shadow_end(lrb_ctx *c, hard_shadow *h, kd16 *k, bool root, bool nothing)
 {
-    lrb_k16 hits = lrb_kmov_kr(c, lrb_load32(c, lrb_at(h->word, HARD_HITS)));
-    lrb_k16 rest = lrb_kmov_kr(c, lrb_load32(c, lrb_at(h->word, HARD_ALIVE))), seen = rest;
+    lrb_k16 hits = lrb_kmov_kr(c, lrb_load32(c, HARD_WORD(h, HARD_HITS)));
+    lrb_k16 rest = lrb_kmov_kr(c, lrb_load32(c, HARD_WORD(h, HARD_ALIVE))), seen = rest;
     if (!nothing) { /* the caller's branch */
         seen = lrb_mask(0);
         while (lrb_jnz(c, lrb_kortest(c, rest, rest))) {
             lrb_k16 together = hard_shadow_alike(c, h, k, rest);
             rest = lrb_kxor(c, rest, together);
+            lrb_r64 start = root ? lrb_imm(0) : lrb_load32(c, HARD_LOOP(k, HARD_NODE));
             seen = lrb_kor(c, seen, hard_shadow_trace(c, h, k, start, together));
             lrb_phase(c, KERNEL_PHASE_SHADING);
+            hard_shadow_here(c, h, k);
         }
     }
     lrb_v16f one = lrb_load_1to16_ps(c, KD16_CELLS(k->cells, signs));

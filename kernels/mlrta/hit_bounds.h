@@ -125,7 +125,7 @@ LRB_INLINE bool hit_bounds_setup(lrb_ctx *c, hard_shadow h, const kd16 *k, tile_
     lrb_v16f zero = lrb_castpi_ps(lrb_xor_pi(c, lrb_castps_pi(lowest), lrb_castps_pi(lowest)));
     hit_ranges r = hit_ranges_none(lowest);
     do {
-        lrb_k16 alive = lrb_kmov_kr(c, lrb_load32(c, lrb_at(h.word, HARD_ALIVE)));
+        lrb_k16 alive = lrb_kmov_kr(c, lrb_load32(c, HARD_WORD(&h, HARD_ALIVE)));
         if (lrb_jz(c, lrb_kortest(c, alive, alive)))
             continue;
         if (!hit_ranges_add(c, &h, k, zero, alive, &r)) /* its own branch */

@@ -15,9 +15,9 @@ LRB_INLINE void kd16_primary_tile(lrb_ctx *c, const kernel_job *job, uint32_t ti
     kd16_begin(c, &k);
     lrb_store_ps(c, lrb_at(k.scratch, SCRATCH_BOXES), lrb_load_ps(c, KD16_CELLS(k.cells, box)));
     if (job->record_count == 0)
-        kd16_blocks(c, &k, tile_ptr, frame, lrb_imm(0), true, lrb_imm(0xffff));
+        kd16_blocks(c, &k, tile_ptr, frame, NULL, true, lrb_imm(0xffff));
     else
-        kd16_blocks(c, &k, tile_ptr, frame, lrb_imm(0), false, lrb_imm(0xffff));
+        kd16_blocks(c, &k, tile_ptr, frame, NULL, false, lrb_imm(0xffff));
 }
 
 KERNEL_TILE_FUNCTION(kd16_primary, kd16_primary_tile)

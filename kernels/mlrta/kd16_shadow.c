@@ -21,7 +21,7 @@ LRB_INLINE void kd16_shadow_tile(lrb_ctx *c, const kernel_job *job, uint32_t til
         lrb_region(c, block++);
         lrb_phase(c, KERNEL_PHASE_SHADING);
         hard_shadow_begin(c, &h, &k);
-        hard_shadow_end(c, &h, &k, lrb_imm(0), false);
+        hard_shadow_end(c, &h, &k, true, false);
     } while (hard_shadow_next(c, &h, &k));
     lrb_region(c, LRB_WHOLE_TILE);
 }

@@ -68,11 +68,11 @@ LRB_INLINE uint32_t kd16_region(const kd16 *k, uint32_t block)
  *
  * @param tile     its job_tile
  * @param frame    its job_frame_tile
- * @param start    offset of the node
+ * @param start    where the node's offset is in scratch; NULL: the root
  * @param nothing  no ray of these blocks can hit anything
  * @param blocks   bit f: block f is traced; those outside the image are left out
  */
-LRB_INLINE void kd16_blocks(lrb_ctx *c, kd16 *k, lrb_ptr tile, lrb_ptr frame, lrb_r64 start, bool nothing, lrb_r64 blocks)
+LRB_INLINE void kd16_blocks(lrb_ctx *c, kd16 *k, lrb_ptr tile, lrb_ptr frame, const lrb_mem *start, bool nothing, lrb_r64 blocks)
 {
     lrb_v16f first_rays[3];
     slab16 s = {.own_origins = false};
@@ -90,7 +90,7 @@ LRB_INLINE void kd16_blocks(lrb_ctx *c, kd16 *k, lrb_ptr tile, lrb_ptr frame, lr
         k->n->n[KERNEL_units_packets]++;
         k->n->n[KERNEL_rays] += (unsigned)__builtin_popcount(active.bits);
         k->n->n[KERNEL_rays_primary] += (unsigned)__builtin_popcount(active.bits);
-        kd16_packet(c, k, &s, lrb_lea(c, k->scratch, block, 4, SCRATCH_CORNERS), start, nothing, active);
+        kd16_packet(c, k, &s, lrb_lea(c, k->scratch, block, 4, SCRATCH_CORNERS), start ? lrb_load32(c, *start) : lrb_imm(0), nothing, active);
         kd16_store(c, lrb_lea(c, frame, lrb_shl(c, block, 6), 1, 0), &s, k);
         block = lrb_bsfi(c, block, blocks);
     }

@@ -25,8 +25,8 @@ enum {
     HARD_BLOCK = 6 * 64, /* 3 x 64: directions, 3 x 64: normals of the surfaces */
     HARD_ALIVE = HARD_RAYS + 16 * HARD_BLOCK, /* 4 bytes a block: those that are traced ... */
     HARD_HITS = HARD_ALIVE + 64,              /* ... of the pixels with a hit */
-    HARD_RANGE = HARD_HITS + 64,              /* 64: a vector whose words are wanted one by one */
-    KD_SCRATCH_END = HARD_RANGE + 64
+    ENTRY_LOOP = HARD_HITS + 64,              /* 64: what mlrta-primary's loops remember while packets are traced */
+    KD_SCRATCH_END = ENTRY_LOOP + 64
 };
 
 _Static_assert((int)KD_ROWS >= (int)SCRATCH_END, "the kernels on the kd-tree use the triangle test's scratch as well");

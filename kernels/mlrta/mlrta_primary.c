@@ -20,13 +20,15 @@ typedef struct mlrta_tile {
 /* A tile that is being split, in scratch: the cell as its rays see it, then these words. */
 enum { FRAME_X = 32, FRAME_Y = 36, FRAME_EDGE = 40, FRAME_NODE = 44, FRAME_NEXT = 48 };
 
+/* Words of ENTRY_LOOP: registers do not suffice for loops around packets. */
+enum { LOOP_TOP, LOOP_NODE, LOOP_BLOCKS, LOOP_X, LOOP_Y, LOOP_FIRST_X, LOOP_LAST_X, LOOP_LAST_Y };
+#define MLRTA_LOOP(m, word) lrb_at((m)->k.scratch, ENTRY_LOOP + 4 * (word))
+
 typedef struct mlrta_state {
     const kernel_job *job;
     kd16 k;
     lrb_r64 width, height;
     uint64_t first_x, first_y; /* first tile of the unit, of the frame's, for the heat map */
-    lrb_ptr frames;            /* tiles that are being split */
-    lrb_ptr top;
 } mlrta_state;
 
 /* The smaller of two. */
@@ -58,29 +60,50 @@ LRB_INLINE lrb_r64 mlrta_blocks(lrb_ctx *c, const mlrta_tile *t)
     return lrb_shl(c, blocks, (unsigned)shift.value);
 }
 
+/* Trace the packets of the 16x16 tile that the loop is at. */
+LRB_INLINE void mlrta_trace_tile(lrb_ctx *c, mlrta_state *m, bool nothing)
+{
+    const lrb_mem start = MLRTA_LOOP(m, LOOP_NODE);
+    lrb_r64 x = lrb_load32(c, MLRTA_LOOP(m, LOOP_X)), y = lrb_load32(c, MLRTA_LOOP(m, LOOP_Y));
+    lrb_r64 index = lrb_add(c, lrb_imul(c, y, lrb_imm(m->job->tiles_x)), x);
+    lrb_ptr tile = lrb_lea(c, lrb_segment_at(m->job->tiles, 0), lrb_shl(c, index, 6), 1, 0);
+    lrb_ptr frame = lrb_lea(c, lrb_segment_at(m->job->frame, 0), lrb_shl(c, index, 12), 1, 0);
+    m->k.tile_x = (uint32_t)(x.value - m->first_x);
+    m->k.tile_y = (uint32_t)(y.value - m->first_y);
+    kd16_blocks(c, &m->k, tile, frame, &start, nothing, lrb_load32(c, MLRTA_LOOP(m, LOOP_BLOCKS)));
+}
+
+/* The next 16x16 tile of the loop, row by row; false after the last. */
+LRB_INLINE bool mlrta_next_tile(lrb_ctx *c, mlrta_state *m)
+{
+    lrb_r64 x = lrb_add(c, lrb_load32(c, MLRTA_LOOP(m, LOOP_X)), lrb_imm(1));
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_X), x);
+    if (!lrb_jl(c, lrb_cmp(c, lrb_load32(c, MLRTA_LOOP(m, LOOP_LAST_X)), x)))
+        return true;
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_X), lrb_load32(c, MLRTA_LOOP(m, LOOP_FIRST_X)));
+    lrb_r64 y = lrb_add(c, lrb_load32(c, MLRTA_LOOP(m, LOOP_Y)), lrb_imm(1));
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_Y), y);
+    return !lrb_jl(c, lrb_cmp(c, lrb_load32(c, MLRTA_LOOP(m, LOOP_LAST_Y)), y));
+}
+
 /* Trace the packets of a tile. */
 LRB_INLINE void mlrta_trace(lrb_ctx *c, mlrta_state *m, const mlrta_tile *t, const tile_pixels *p, const tile_bounds *bounds)
 {
-    const kernel_job *job = m->job;
     lrb_r64 blocks = mlrta_blocks(c, t);
     lrb_v16f cell = tile_turned(c, bounds, t->start.cell);
     lrb_v16f zero = lrb_castpi_ps(lrb_xor_pi(c, lrb_castps_pi(cell), lrb_castps_pi(cell)));
     lrb_store_ps(c, lrb_at(m->k.scratch, SCRATCH_BOXES), lrb_mask_sub_ps(c, cell, lrb_mask(0xf0), zero, cell));
-    lrb_r64 last_x = lrb_shr(c, p->x1, 4), last_y = lrb_shr(c, p->y1, 4);
-    lrb_r64 y = lrb_shr(c, p->y0, 4);
-    do {
-        lrb_r64 x = lrb_shr(c, p->x0, 4);
-        do {
-            lrb_r64 index = lrb_add(c, lrb_imul(c, y, lrb_imm(job->tiles_x)), x);
-            lrb_ptr tile = lrb_lea(c, lrb_segment_at(job->tiles, 0), lrb_shl(c, index, 6), 1, 0);
-            lrb_ptr frame = lrb_lea(c, lrb_segment_at(job->frame, 0), lrb_shl(c, index, 12), 1, 0);
-            m->k.tile_x = (uint32_t)(x.value - m->first_x);
-            m->k.tile_y = (uint32_t)(y.value - m->first_y);
-            kd16_blocks(c, &m->k, tile, frame, t->start.node, t->nothing, blocks);
-            x = lrb_add(c, x, lrb_imm(1));
-        } while (!lrb_jl(c, lrb_cmp(c, last_x, x)));
-        y = lrb_add(c, y, lrb_imm(1));
-    } while (!lrb_jl(c, lrb_cmp(c, last_y, y)));
+    lrb_r64 first_x = lrb_shr(c, p->x0, 4);
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_NODE), t->start.node);
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_BLOCKS), blocks);
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_FIRST_X), first_x);
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_LAST_X), lrb_shr(c, p->x1, 4));
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_LAST_Y), lrb_shr(c, p->y1, 4));
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_X), first_x);
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_Y), lrb_shr(c, p->y0, 4));
+    do
+        mlrta_trace_tile(c, m, t->nothing);
+    while (mlrta_next_tile(c, m));
 }
 
 /* Whether a tile is to be split on. */
@@ -100,13 +123,15 @@ LRB_INLINE bool mlrta_splits(lrb_ctx *c, const mlrta_state *m, const mlrta_tile 
 
 LRB_INLINE void mlrta_push(lrb_ctx *c, mlrta_state *m, const mlrta_tile *t)
 {
-    lrb_store_ps(c, lrb_at(m->top, 0), t->start.cell);
-    lrb_store32(c, lrb_at(m->top, FRAME_X), t->x);
-    lrb_store32(c, lrb_at(m->top, FRAME_Y), t->y);
-    lrb_store32(c, lrb_at(m->top, FRAME_EDGE), t->edge);
-    lrb_store32(c, lrb_at(m->top, FRAME_NODE), t->start.node);
-    lrb_store32(c, lrb_at(m->top, FRAME_NEXT), lrb_imm(0));
-    m->top = lrb_lea(c, m->top, lrb_imm(0), 1, ENTRY_TILE_FRAME);
+    lrb_r64 top = lrb_load32(c, MLRTA_LOOP(m, LOOP_TOP));
+    lrb_ptr frame = lrb_lea(c, m->k.scratch, top, 1, ENTRY_TILES);
+    lrb_store_ps(c, lrb_at(frame, 0), t->start.cell);
+    lrb_store32(c, lrb_at(frame, FRAME_X), t->x);
+    lrb_store32(c, lrb_at(frame, FRAME_Y), t->y);
+    lrb_store32(c, lrb_at(frame, FRAME_EDGE), t->edge);
+    lrb_store32(c, lrb_at(frame, FRAME_NODE), t->start.node);
+    lrb_store32(c, lrb_at(frame, FRAME_NEXT), lrb_imm(0));
+    lrb_store32(c, MLRTA_LOOP(m, LOOP_TOP), lrb_add(c, top, lrb_imm(ENTRY_TILE_FRAME)));
 }
 
 /* Search a tile's entry point, then trace it, or put it on the stack of those that are split. */
@@ -135,15 +160,18 @@ LRB_INLINE void mlrta_process(lrb_ctx *c, mlrta_state *m, mlrta_tile *t)
 /* The next part of the tiles that are being split; false if there is none. Parts outside the image are passed over. */
 LRB_INLINE bool mlrta_next(lrb_ctx *c, mlrta_state *m, mlrta_tile *t)
 {
-    while (!lrb_jz(c, lrb_cmp_ptr(c, m->top, m->frames))) {
-        lrb_ptr frame = lrb_lea(c, m->top, lrb_imm(0), 1, -ENTRY_TILE_FRAME);
+    for (;;) {
+        lrb_r64 top = lrb_load32(c, MLRTA_LOOP(m, LOOP_TOP));
+        if (lrb_jz(c, lrb_test(c, top, top)))
+            return false;
+        lrb_ptr frame = lrb_lea(c, m->k.scratch, top, 1, ENTRY_TILES - ENTRY_TILE_FRAME);
         lrb_r64 edge = lrb_load32(c, lrb_at(frame, FRAME_EDGE));
         lrb_r64 next = lrb_load32(c, lrb_at(frame, FRAME_NEXT));
         const unsigned log2 = m->job->params.sf && edge.value >= 16 ? 2 : 1; /* parts an edge */
         lrb_r64 after = lrb_add(c, next, lrb_imm(1));
         lrb_store32(c, lrb_at(frame, FRAME_NEXT), after);
         if (lrb_jz(c, lrb_cmp(c, after, lrb_imm(UINT64_C(1) << 2 * log2))))
-            m->top = frame;
+            lrb_store32(c, MLRTA_LOOP(m, LOOP_TOP), lrb_sub(c, top, lrb_imm(ENTRY_TILE_FRAME)));
         t->edge = lrb_shr(c, edge, log2);
         lrb_r64 column = lrb_and(c, next, lrb_imm((1u << log2) - 1)), row = lrb_shr(c, next, log2);
         t->x = lrb_add(c, lrb_load32(c, lrb_at(frame, FRAME_X)), lrb_imul(c, column, t->edge));
@@ -154,7 +182,6 @@ LRB_INLINE bool mlrta_next(lrb_ctx *c, mlrta_state *m, mlrta_tile *t)
             return true;
         }
     }
-    return false;
 }
 
 /* A unit of work: an initial tile. */
@@ -166,8 +193,7 @@ LRB_INLINE void mlrta_primary_unit(lrb_ctx *c, const kernel_job *job, uint32_t u
     m.first_x = unit % units_x * edge;
     m.first_y = unit / units_x * edge;
     kd16_begin(c, &m.k);
-    m.frames = lrb_lea(c, m.k.scratch, lrb_imm(0), 1, ENTRY_TILES);
-    m.top = m.frames;
+    lrb_store32(c, MLRTA_LOOP(&m, LOOP_TOP), lrb_imm(0));
     mlrta_tile t = {.x = lrb_imm(m.first_x * JOB_TILE_PIXELS), .y = lrb_imm(m.first_y * JOB_TILE_PIXELS)};
     t.edge = lrb_imm(edge * JOB_TILE_PIXELS);
     t.start.node = lrb_imm(0);

@@ -23,7 +23,7 @@ LRB_INLINE lrb_r64 mlrta_shadow_begin(lrb_ctx *c, hard_shadow h, const kd16 *k)
     lrb_phase(c, KERNEL_PHASE_SHADING);
     do {
         hard_shadow_begin(c, &h, k);
-        any = lrb_or(c, any, lrb_load32(c, lrb_at(h.word, HARD_ALIVE)));
+        any = lrb_or(c, any, lrb_load32(c, HARD_WORD(&h, HARD_ALIVE)));
     } while (hard_shadow_next(c, &h, k));
     return any;
 }
@@ -71,14 +71,25 @@ LRB_INLINE void mlrta_shadow_tile(lrb_ctx *c, const kernel_job *job, kd16 *k, lr
     hard_shadow h = hard_shadow_of(c, job, k, tile);
     mlrta_shadow_corners(c, &h, k);
     lrb_r64 any = mlrta_shadow_begin(c, h, k);
+    hard_shadow_first(c, &h, k);
     mlrta_shadow_start start = mlrta_shadow_search(c, job, &h, k, any);
+    lrb_store32(c, HARD_LOOP(k, HARD_NODE), start.node);
+    hard_shadow_first(c, &h, k);
     uint32_t block = 0;
     do {
         lrb_region(c, kd16_region(k, block++));
         lrb_phase(c, KERNEL_PHASE_SHADING);
-        hard_shadow_end(c, &h, k, start.node, start.nothing);
+        hard_shadow_end(c, &h, k, false, start.nothing);
     } while (hard_shadow_next(c, &h, k));
     lrb_region(c, LRB_WHOLE_TILE);
+}
+
+/* Add 1 to a word of the loop; false at the end. */
+LRB_INLINE bool mlrta_shadow_step(lrb_ctx *c, const kd16 *k, int word, uint32_t end)
+{
+    lrb_r64 next = lrb_add(c, lrb_load32(c, HARD_LOOP(k, word)), lrb_imm(1));
+    lrb_store32(c, HARD_LOOP(k, word), next);
+    return lrb_jb(c, lrb_cmp(c, next, lrb_imm(end)));
 }
 
 LRB_INLINE void mlrta_shadow_unit(lrb_ctx *c, const kernel_job *job, uint32_t unit, kernel_counts *n)
@@ -90,17 +101,16 @@ LRB_INLINE void mlrta_shadow_unit(lrb_ctx *c, const kernel_job *job, uint32_t un
     KERNEL_TILE_FN(mlrta_primary)(c, job, unit, n);
     const uint64_t ep_cells = n->n[KERNEL_ep_cells], ep_inner = n->n[KERNEL_ep_inner];
     kd16_begin(c, &k);
-    lrb_r64 y = lrb_imm(y0);
+    lrb_store32(c, HARD_LOOP(&k, HARD_Y), lrb_imm(y0));
     do {
-        lrb_r64 x = lrb_imm(x0);
+        lrb_store32(c, HARD_LOOP(&k, HARD_X), lrb_imm(x0));
         do {
+            lrb_r64 x = lrb_load32(c, HARD_LOOP(&k, HARD_X)), y = lrb_load32(c, HARD_LOOP(&k, HARD_Y));
             k.tile_x = (uint32_t)x.value - x0;
             k.tile_y = (uint32_t)y.value - y0;
             mlrta_shadow_tile(c, job, &k, lrb_add(c, lrb_imul(c, y, lrb_imm(job->tiles_x)), x));
-            x = lrb_add(c, x, lrb_imm(1));
-        } while (lrb_jb(c, lrb_cmp(c, x, lrb_imm(x1))));
-        y = lrb_add(c, y, lrb_imm(1));
-    } while (lrb_jb(c, lrb_cmp(c, y, lrb_imm(y1))));
+        } while (mlrta_shadow_step(c, &k, HARD_X, x1));
+    } while (mlrta_shadow_step(c, &k, HARD_Y, y1));
     n->n[KERNEL_traversed_cells] += n->n[KERNEL_ep_cells] - ep_cells;
     n->n[KERNEL_traversed_inner] += n->n[KERNEL_ep_inner] - ep_inner;
 }
