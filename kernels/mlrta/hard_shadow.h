@@ -185,7 +185,6 @@ LRB_INLINE void hard_shadow_begin(lrb_ctx *c, const hard_shadow *h, const kd16 *
 /** Trace the rays of a block from the node in scratch, or the root, part by part; `nothing`: they all arrive. */
 LRB_INLINE void hard_shadow_end(lrb_ctx *c, hard_shadow *h, kd16 *k, bool root, bool nothing)
 {
-    lrb_k16 hits = lrb_kmov_kr(c, lrb_load32(c, HARD_WORD(h, HARD_HITS)));
     lrb_k16 rest = lrb_kmov_kr(c, lrb_load32(c, HARD_WORD(h, HARD_ALIVE))), seen = rest;
     if (!nothing) { /* the caller's branch */
         seen = lrb_mask(0);
@@ -199,6 +198,7 @@ LRB_INLINE void hard_shadow_end(lrb_ctx *c, hard_shadow *h, kd16 *k, bool root, 
         }
     }
     lrb_v16f one = lrb_load_1to16_ps(c, KD16_CELLS(k->cells, signs));
+    lrb_k16 hits = lrb_kmov_kr(c, lrb_load32(c, HARD_WORD(h, HARD_HITS)));
     hard_shadow_store(c, h, k, lrb_sub_ps(c, one, one), hits, seen);
 }
 
