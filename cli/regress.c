@@ -23,6 +23,8 @@ typedef struct suite {
 static const suite suites[] = {
     {"mft-primary", {"packet16-primary", "mft-primary"}, 256},
     {"mft-soft", {"packet16-soft", "mft-soft"}, 32},
+    {"mlrta-primary", {"kd16-primary", "mlrta-primary"}, 128},
+    {"mlrta-shadow", {"kd16-shadow", "mlrta-shadow"}, 64},
 };
 enum { SUITES = sizeof suites / sizeof *suites };
 
@@ -55,8 +57,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp argp = {
     option_table, parse, "[SUITE...]",
     "Measure the suites (all, if none is named) and compare every count, op and cycle with the stored baseline.\v"
-    "Exit code 1 if anything differs. Suites: mft-primary, mft-soft: packets and frusta on the built-in scenes, on larrabee and knc; "
-    "primary rays at 256x256, soft shadows at 32x32 with every way to shrink frusta.",
+    "Exit code 1 if anything differs. Suites, on the three small indoor scenes, on larrabee and knc: mft-primary and mft-soft, packets and frusta, "
+    "primary rays at 256x256, soft shadows at 32x32 with every way to shrink frusta; mlrta-primary and mlrta-shadow, packets through the "
+    "kd-tree from its root and from entry points, at 128x128 and, with hard shadows, 64x64.",
     NULL, NULL, NULL,
 };
 

@@ -14,8 +14,19 @@
 typedef struct hit_ranges {
     lrb_v16f farthest[3][3], nearest[3][3]; /* [k][u]: slopes d_u / d_k; those of an axis by itself are not used */
     lrb_v16f most[3], least[3];             /* reciprocals */
-    lrb_k16 minus[3], plus[3];              /* lanes in which some ray goes down, or up */
+    lrb_r64 minus, plus;                    /* bit 16 axis + lane: some ray goes down, or up; as masks they would be too many */
 } hit_ranges;
+
+/* The bits of one axis in `minus` and `plus`. */
+#define HIT_SIGNS(axis) lrb_imm(UINT64_C(0xffff) << 16 * (axis))
+
+LRB_INLINE lrb_r64 hit_signs_add(lrb_ctx *c, lrb_r64 signs, int axis, lrb_k16 m)
+{
+    lrb_r64 lanes = lrb_kmov_rk(c, m);
+    if (axis)
+        lanes = lrb_shl(c, lanes, 16u * (unsigned)axis);
+    return lrb_or(c, signs, lanes);
+}
 
 /* Add the rays of one block; false if one has no strict sign. */
 LRB_INLINE bool hit_ranges_add(lrb_ctx *c, const hard_shadow *h, const kd16 *k, lrb_v16f zero, lrb_k16 alive, hit_ranges *r)
@@ -26,8 +37,9 @@ LRB_INLINE bool hit_ranges_add(lrb_ctx *c, const hard_shadow *h, const kd16 *k, 
     for (int axis = 0; axis < 3; axis++) {
         lrb_v16f d = lrb_load_ps(c, lrb_at(h->rays, 64 * axis));
         lrb_k16 minus = lrb_mask_cmplt_ps(c, alive, d, zero);
-        r->minus[axis] = lrb_kor(c, r->minus[axis], minus);
-        r->plus[axis] = lrb_kor(c, r->plus[axis], lrb_kxor(c, alive, minus));
+        r->minus = hit_signs_add(c, r->minus, axis, minus);
+        lrb_k16 plus = lrb_kxor(c, alive, minus);
+        r->plus = hit_signs_add(c, r->plus, axis, plus);
         d = lrb_mask_sub_ps(c, d, minus, zero, d);
         small[axis] = lrb_sub_ps(c, d, slack);
         large[axis] = lrb_add_ps(c, d, slack);
@@ -70,7 +82,7 @@ LRB_INLINE void hit_row(lrb_ctx *c, const kd16 *k, int axis, lrb_v16f zero, cons
     factors = hit_words(c, factors, v, r->farthest[axis][v], 4 + v, r->nearest[axis][v]);
     factors = hit_words(c, factors, 7, r->least[axis], 7, r->least[axis]);
     lrb_r64 nearer = lrb_imm(0);
-    if (lrb_jnz(c, lrb_kortest(c, r->minus[axis], r->minus[axis]))) {
+    if (lrb_jnz(c, lrb_test(c, r->minus, HIT_SIGNS(axis)))) {
         factors = lrb_sub_ps(c, zero, factors);
         nearer = lrb_imm(sizeof(kdtree_node));
     }
@@ -85,9 +97,8 @@ LRB_INLINE bool hit_bounds_store(lrb_ctx *c, const kd16 *k, lrb_v16f zero, const
     lrb_v16f least = lrb_load_1to16_ps(c, KD16_CELLS(k->cells, signs)), most = least;
     out->negative = lrb_mask(0);
     for (int axis = 0; axis < 3; axis++) {
-        lrb_k16 minus = r->minus[axis];
-        if (lrb_jnz(c, lrb_kortest(c, minus, minus))) {
-            if (lrb_jnz(c, lrb_kortest(c, r->plus[axis], r->plus[axis])))
+        if (lrb_jnz(c, lrb_test(c, r->minus, HIT_SIGNS(axis)))) {
+            if (lrb_jnz(c, lrb_test(c, r->plus, HIT_SIGNS(axis))))
                 return false;
             out->negative = lrb_kor(c, out->negative, lrb_mask(0x11u << axis));
         }
@@ -104,12 +115,11 @@ LRB_INLINE bool hit_bounds_store(lrb_ctx *c, const kd16 *k, lrb_v16f zero, const
 /* No rays yet. */
 LRB_INLINE hit_ranges hit_ranges_none(lrb_v16f lowest)
 {
-    hit_ranges r;
+    hit_ranges r = {.minus = lrb_imm(0), .plus = lrb_imm(0)};
     for (int k = 0; k < 3; k++) {
         for (int u = 0; u < 3; u++)
             r.farthest[k][u] = r.nearest[k][u] = lowest;
         r.most[k] = r.least[k] = lowest;
-        r.minus[k] = r.plus[k] = lrb_mask(0);
     }
     return r;
 }
