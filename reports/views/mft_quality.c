@@ -60,28 +60,25 @@ static void add_errors(report_table *t, const mft_error error[MFT_REGIONS])
         report_table_add_integer(t, (int64_t)error[region].pixels);
 }
 
-static void begin_columns(report_table *t)
+static void add_way_columns(report_table *t)
 {
-    report_table_add_column(t, &(report_column){.name = "scene"});
-    report_table_add_column(t, &(report_column){.name = "samples", .kind = REPORT_INTEGER});
     report_table_add_column(t, &(report_column){.name = "interleaved"});
     report_table_add_column(t, &(report_column){.name = "filter"});
 }
 
-static void begin_row(report_table *t, const mft_quality_row *row)
+static void add_way(report_table *t, bool interleaved, bool filtered)
 {
-    report_table_begin_row(t);
-    report_table_add_text(t, row->scene);
-    report_table_add_integer(t, row->samples);
-    report_table_add_text(t, row->interleaved ? "yes" : "no");
-    report_table_add_text(t, row->filtered ? "yes" : "no");
+    report_table_add_text(t, interleaved ? "yes" : "no");
+    report_table_add_text(t, filtered ? "yes" : "no");
 }
 
 report_table *mft_quality_errors(const mft_quality_row *rows, size_t count, const char *caption)
 {
     report_table *t = report_table_create("Soft shadows: cycles, and error of the visibility");
     report_table_set_caption(t, caption);
-    begin_columns(t);
+    report_table_add_column(t, &(report_column){.name = "scene"});
+    report_table_add_column(t, &(report_column){.name = "samples", .kind = REPORT_INTEGER});
+    add_way_columns(t);
     add_number(t, "shadow rays", NULL, 0);
     add_number(t, "cycles", NULL, 0);
     add_number(t, "cycles per pixel", NULL, 1);
@@ -89,7 +86,10 @@ report_table *mft_quality_errors(const mft_quality_row *rows, size_t count, cons
     for (size_t i = 0; i < count; i++) {
         if (i % MFT_QUALITY_WAYS == 0)
             report_table_begin_group(t, rows[i].scene);
-        begin_row(t, &rows[i]);
+        report_table_begin_row(t);
+        report_table_add_text(t, rows[i].scene);
+        report_table_add_integer(t, rows[i].samples);
+        add_way(t, rows[i].interleaved, rows[i].filtered);
         report_table_add_real(t, rows[i].rays);
         report_table_add_real(t, rows[i].cycles);
         report_table_add_real(t, rows[i].cycles_per_pixel);
@@ -104,29 +104,31 @@ report_table *mft_quality_errors(const mft_quality_row *rows, size_t count, cons
     return t;
 }
 
-report_table *mft_quality_figure5(const mft_quality_row *rows, size_t count, const char *caption)
+report_table *mft_quality_figure5(const mft_figure5_row *rows, size_t count, const char *caption)
 {
-    char words[400];
+    char words[500], picture[40];
     report_table *t = report_table_create("Figure 5: 16 samples against 256");
     report_table_set_caption(t, caption);
-    begin_columns(t);
+    report_table_add_column(t, &(report_column){.name = "scene"});
+    report_table_add_column(t, &(report_column){.name = "picture", .align = REPORT_ALIGN_RIGHT});
+    add_way_columns(t);
     add_number(t, "shadow rays", "% of those of 256", 2);
-    add_number(t, "cycles", "% of those of 256", 1);
     add_error_columns(t);
     for (size_t i = 0; i < count; i++) {
-        const mft_quality_row *full = &rows[i / MFT_QUALITY_WAYS * MFT_QUALITY_WAYS + MFT_QUALITY_FULL];
-        if (i % MFT_QUALITY_WAYS == 0)
-            report_table_begin_group(t, rows[i].scene);
-        if (rows[i].samples != 16)
-            continue;
-        begin_row(t, &rows[i]);
-        report_table_add_real(t, 100 * rows[i].rays / full->rays);
-        report_table_add_real(t, 100 * rows[i].cycles / full->cycles);
-        add_errors(t, rows[i].figure5);
+        if (!i || rows[i].width != rows[i - 1].width)
+            report_table_begin_group(t, NULL);
+        snprintf(picture, sizeof picture, "%ux%u", rows[i].width, rows[i].height);
+        report_table_begin_row(t);
+        report_table_add_text(t, rows[i].scene);
+        report_table_add_text(t, picture);
+        add_way(t, rows[i].interleaved, rows[i].filtered);
+        report_table_add_real(t, 100 * rows[i].rays);
+        add_errors(t, rows[i].error);
     }
     snprintf(words, sizeof words, "Figure 5 of the paper sets pictures side by side: 16 interleaved samples and the filter, with %.2f %% of the rays "
-                                  "(inferred: the copy of the paper at hand is damaged there), look like 256 samples. Here errors are against 256 samples, neither interleaved nor filtered, and the "
-                                  "penumbrae are theirs.",
+                                  "(inferred: the copy of the paper at hand is damaged there), look like 256 samples at 1024x1024. Here errors are "
+                                  "against 256 samples, not filtered, and the penumbrae are theirs. The filter's window is 4x4 pixels, so it blurs less "
+                                  "of the scene the larger the picture is.",
              report_paper_find("mft_text", "T-Rex", "interleaved 4x4 + filter", "shadow_rays_relative_to_256"));
     report_table_add_note(t, words);
     return t;

@@ -36,14 +36,22 @@ typedef struct mft_quality_row {
     bool interleaved, filtered; /* of the most samples: `interleaved` is false */
     double rays, cycles, cycles_per_pixel; /* of the frame, without the filter */
     mft_error error[MFT_REGIONS]; /* against the reference */
-    mft_error figure5[MFT_REGIONS]; /* against MFT_QUALITY_FULL */
 } mft_quality_row;
 
 /** All rows. NULL if out of memory. */
 report_table *mft_quality_errors(const mft_quality_row *rows, size_t count, const char *caption);
 
-/** 16 samples in four ways against 256 samples: Figure 5. NULL if out of memory. */
-report_table *mft_quality_figure5(const mft_quality_row *rows, size_t count, const char *caption);
+/* 16 samples in one of four ways against 256 on one scene, in a picture of one size. */
+typedef struct mft_figure5_row {
+    const char *scene;
+    unsigned width, height;
+    bool interleaved, filtered;
+    double rays; /* shadow rays, as a part of those of 256 samples */
+    mft_error error[MFT_REGIONS]; /* against 256 samples, not filtered */
+} mft_figure5_row;
+
+/** Figure 5. NULL if out of memory. */
+report_table *mft_quality_figure5(const mft_figure5_row *rows, size_t count, const char *caption);
 
 /* Series of a scene's plot: cycles per pixel and RMSE inside penumbrae, in four ways. */
 typedef struct mft_quality_points {

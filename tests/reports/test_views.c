@@ -233,7 +233,7 @@ static void quality__errors__by_region_of_the_reference_and_hits_only(void **sta
     assert_true(error[MFT_INSIDE].pixels == 0 && isnan(error[MFT_INSIDE].rmse));
 }
 
-static void quality__figure_5__rows_of_16_samples_against_256(void **state)
+static void quality__tables_and_points__rows_in_their_order(void **state)
 {
     (void)state;
     mft_quality_row rows[MFT_QUALITY_WAYS] = {{0}};
@@ -242,12 +242,14 @@ static void quality__figure_5__rows_of_16_samples_against_256(void **state)
         rows[i] = (mft_quality_row){.scene = "a", .samples = mft_quality_samples[i / 4], .interleaved = i / 2 % 2, .filtered = i % 2,
                                     .rays = mft_quality_samples[i / 4], .cycles = 10 * mft_quality_samples[i / 4], .cycles_per_pixel = i / 4 + 1,
                                     .error = {{.rmse = 1.0 / (i + 1), .pixels = 1}}};
-    json_t *table = json_of(mft_quality_figure5(rows, MFT_QUALITY_WAYS, NULL)), *all = json_of(mft_quality_errors(rows, MFT_QUALITY_WAYS, NULL));
-    assert_int_equal(json_array_size(json_object_get(table, "rows")), 4);
+    const mft_figure5_row figure[] = {{.scene = "a", .width = 8, .height = 6, .rays = 0.0625, .error = {{.rmse = 0.5, .pixels = 1}}},
+                                      {.scene = "a", .width = 16, .height = 12, .interleaved = true, .filtered = true, .rays = 0.0625}};
+    json_t *table = json_of(mft_quality_figure5(figure, 2, NULL)), *all = json_of(mft_quality_errors(rows, MFT_QUALITY_WAYS, NULL));
     assert_int_equal(json_array_size(json_object_get(all, "rows")), MFT_QUALITY_WAYS);
-    assert_true(number(table, 3, "shadow rays") == 6.25 && fabs(number(table, 0, "cycles") - 6.25) < 0.06);
-    assert_string_equal(json_string_value(cell(table, 3, "interleaved")), "yes");
-    assert_string_equal(json_string_value(cell(table, 2, "filter")), "no");
+    assert_true(number(table, 1, "shadow rays") == 6.25 && number(table, 0, "inside penumbrae, RMSE") == 0.5);
+    assert_true(json_is_null(cell(table, 0, "outside, worst")));
+    assert_string_equal(json_string_value(cell(table, 1, "picture")), "16x12");
+    assert_string_equal(json_string_value(cell(table, 1, "interleaved")), "yes");
     mft_quality_points_of(rows, &points);
     assert_true(points.x[3][1] == 2 && fabs(points.y[3][1] - 1.0 / 8) < 1e-12);
     assert_true(points.y[3][3] == points.y[1][3] && fabs(points.y[0][3] - 1.0 / 13) < 1e-12);
@@ -289,7 +291,7 @@ int main(void)
         cmocka_unit_test(table2__other_scenes__published_rows_apart),
         cmocka_unit_test(light_size__two_scenes__ratios_and_a_series_for_each),
         cmocka_unit_test(quality__errors__by_region_of_the_reference_and_hits_only),
-        cmocka_unit_test(quality__figure_5__rows_of_16_samples_against_256),
+        cmocka_unit_test(quality__tables_and_points__rows_in_their_order),
         cmocka_unit_test(models__median_and_worst__by_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
