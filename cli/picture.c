@@ -47,9 +47,9 @@ static float visibility(const kernel_job *job, job_pixel p)
     return job->shadows_host ? job->shadows_host[p.tile].visibility[p.block][p.pixel] : 1.0f;
 }
 
-/* The visibility by pixel, that of soft shadows filtered; NULL if out of memory. */
-static float *seen_light(const kernel_job *job, base_error *err)
+float *picture_visibility(const run_result *r, bool filtered, base_error *err)
 {
+    const kernel_job *job = r->job;
     const size_t pixels = (size_t)job->width * job->height;
     float *seen = malloc(pixels * sizeof *seen);
     if (!seen) {
@@ -58,16 +58,15 @@ static float *seen_light(const kernel_job *job, base_error *err)
     }
     for (size_t i = 0; i < pixels; i++)
         seen[i] = visibility(job, kernel_job_pixel(job, (unsigned)(i % job->width), (unsigned)(i / job->width)));
-    if (job->sample_passes > 0)
+    if (filtered && job->sample_passes > 0)
         visibility_filter(job, seen);
     return seen;
 }
 
-base_status picture_shaded(const run_result *r, report_image *out, base_error *err)
+base_status picture_lit(const run_result *r, const float *seen, report_image *out, base_error *err)
 {
     const unsigned width = r->options.width, height = r->options.height;
-    float *seen = seen_light(r->job, err);
-    base_status status = seen ? report_image_create((int)width, (int)height, 3, out, err) : BASE_ERR_NOMEM;
+    base_status status = report_image_create((int)width, (int)height, 3, out, err);
     for (unsigned y = 0; status == BASE_OK && y < height; y++)
         for (unsigned x = 0; x < width; x++) {
             job_pixel p = kernel_job_pixel(r->job, x, y);
@@ -84,6 +83,13 @@ base_status picture_shaded(const run_result *r, report_image *out, base_error *e
                 pixel[channel] = id == JOB_NO_HIT ? background
                                                   : (float)light * r->scene->materials[r->scene->triangle_material[id]].base_color[channel];
         }
+    return status;
+}
+
+base_status picture_shaded(const run_result *r, report_image *out, base_error *err)
+{
+    float *seen = picture_visibility(r, true, err);
+    base_status status = seen ? picture_lit(r, seen, out, err) : BASE_ERR_NOMEM;
     free(seen);
     return status;
 }

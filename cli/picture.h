@@ -13,6 +13,17 @@
  */
 base_status picture_shaded(const run_result *result, report_image *out, base_error *err);
 
+/** picture_shaded with other visibilities: by pixel, row by row from the top left. */
+base_status picture_lit(const run_result *result, const float *seen, report_image *out, base_error *err);
+
+/**
+ * The fraction of the light that the hit of each pixel sees, row by row from the top left; 1 for kernels without shadows.
+ *
+ * @param filtered  as the filter of soft shadows leaves it (kernels/visibility_filter.h), not as it was traced
+ * @return for free(); NULL with BASE_ERR_NOMEM in *err
+ */
+float *picture_visibility(const run_result *result, bool filtered, base_error *err);
+
 /** Write Z, prim, U, V and, of kernels with shadows, visibility (docs/interface.md) as an EXR file. */
 base_status picture_write_aov(const run_result *result, const char *path, base_error *err);
 

@@ -16,10 +16,16 @@ int mft_algorithms_measured(void)
     return count;
 }
 
-base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err)
+run_options mft_run_options(const suite *s, mft_algorithm algorithm)
 {
     run_options options = suite_run_options(s, kernel_find(mft_kernel(algorithm)), RUN_CORE);
     options.params.cull_backface = 1;
+    return options;
+}
+
+base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err)
+{
+    const run_options options = mft_run_options(s, algorithm);
     return run_kernel(input, machine, &options, result, err);
 }
 

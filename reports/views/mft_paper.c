@@ -5,7 +5,7 @@
 
 #include "reports/paper.h"
 
-static const char table[] = "mft_table1";
+static const char table[] = "mft_table1", table2[] = "mft_table2";
 
 const char *const mft_metric_names[MFT_METRICS] = {"triangle accesses", "after culling", "AABB tests", "intersection tests", "cycles"};
 const char *const mft_algorithm_names[MFT_ALGORITHMS] = {"P-Packet", "P-Frusta", "S-Packet", "S-Frusta"};
@@ -15,6 +15,7 @@ const mft_scene mft_scenes[MFT_SCENES] = {
     {"Call of Juarez Saloon (60K tri)", "hall-60k"},
     {"Fairy Forest (174K tri)", "forest-174k"},
 };
+const char *const mft_shrink_names[MFT_SHRINKS] = {"No Shrink", "CR", "FS", "Ray-AABB"};
 const double mft_paper_pixels = 1024.0 * 1024.0;
 
 /* The metrics' names in the file. */
@@ -39,17 +40,33 @@ static void add_doubt(mft_paper_row *row, const char *status, mft_metric metric,
     *last = status;
 }
 
-mft_paper_row mft_paper_row_of(size_t scene, mft_algorithm algorithm)
+static mft_paper_row row_of(const char *in, size_t scene, const char *algorithm)
 {
     mft_paper_row row = {0};
     const char *last = NULL;
     for (int m = 0; m < MFT_METRICS; m++) {
-        const report_paper_value *v = report_paper_entry(table, mft_scenes[scene].name, mft_algorithm_names[algorithm], keys[m]);
-        row.value[m] = mft_paper_value(scene, algorithm, keys[m]);
+        const report_paper_value *v = report_paper_entry(in, mft_scenes[scene].name, algorithm, keys[m]);
+        row.value[m] = report_paper_find(in, mft_scenes[scene].name, algorithm, keys[m]);
         if (v && (strcmp(v->status, "inferred") == 0 || strcmp(v->status, "uncertain") == 0))
             add_doubt(&row, v->status, (mft_metric)m, &last);
     }
     return row;
+}
+
+mft_paper_row mft_paper_row_of(size_t scene, mft_algorithm algorithm) { return row_of(table, scene, mft_algorithm_names[algorithm]); }
+
+mft_paper_row mft_paper_shrink_row(size_t shrink) { return row_of(table2, 0, mft_shrink_names[shrink]); }
+
+double mft_paper_additional_tests(size_t shrink)
+{
+    return report_paper_find(table2, mft_scenes[0].name, mft_shrink_names[shrink], "additional_tests");
+}
+
+double mft_paper_shrink_change(size_t shrink, mft_metric metric)
+{
+    char key[60];
+    snprintf(key, sizeof key, "change_%s", keys[metric]);
+    return report_paper_find(table2, mft_scenes[0].name, mft_shrink_names[shrink], key);
 }
 
 double mft_paper_value(size_t scene, mft_algorithm algorithm, const char *metric)

@@ -1,4 +1,4 @@
-/* Table 1 of Benthin and Wald 2009 (reports/papers/mft_table1.csv), row by row, as the views of it need it. */
+/* Tables 1 and 2 of Benthin and Wald 2009 (reports/papers/mft_table1.csv, mft_table2.csv), row by row, as the views of them need it. */
 #ifndef REPORTS_VIEWS_MFT_PAPER_H
 #define REPORTS_VIEWS_MFT_PAPER_H
 
@@ -39,6 +39,21 @@ typedef struct mft_paper_row {
 } mft_paper_row;
 
 mft_paper_row mft_paper_row_of(size_t scene, mft_algorithm algorithm);
+
+/* How frusta of shadow rays shrink, in the order of the kernel's parameter. */
+enum { MFT_SHRINKS = 4 };
+
+/** "No Shrink" and so on, the paper's names. */
+extern const char *const mft_shrink_names[MFT_SHRINKS];
+
+/** A row of Table 2, which is of the first scene only, has no cycles, and leaves the primary rays out. */
+mft_paper_row mft_paper_shrink_row(size_t shrink);
+
+/** Its additional tests; NaN where it has none. */
+double mft_paper_additional_tests(size_t shrink);
+
+/** The change against no shrinking as it is printed, in percent; NaN where none is. */
+double mft_paper_shrink_change(size_t shrink, mft_metric metric);
 
 /** The row's value of one more metric of the file: "cycles_with_shading". NaN if it has none. */
 double mft_paper_value(size_t scene, mft_algorithm algorithm, const char *metric);

@@ -7,7 +7,7 @@ import sys
 from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-prediction', 'stability']
+SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-table2', 'mft-light-size', 'mft-quality', 'mft-prediction', 'stability']
 
 
 def own_scene(folder):
@@ -139,6 +139,86 @@ def mft_table1__own_scene__sampled(folder):
     assert [r['basis'] for r in tables[TABLE1]] == ['measured'] * (4 if 'mft-soft' in run('kernels').stdout else 2) + ['published'] * 16 and tables['Where reductions differ'] == []
     fails(['report', 'mft-table1', '--error', '1.5', '--out', folder + '/no'], '--error')
     fails(['report', 'mft-table1', '--error', 'x', '--out', folder + '/no'], '--error')
+    return None
+
+
+TABLE2 = 'MFT Table 2: shadow rays only, measured, and published by Benthin and Wald 2009'
+
+
+def mft_table2__builtin_scene__frame_less_its_primary_rays(folder):
+    scene = ['--scene', 'builtin:rooms-804', '--size', '32x24']
+    tables = report(folder, 'mft-table2', *scene)
+    rows, changes = ({row['variant']: row for row in tables[title] if row['basis'] == 'measured'} for title in (TABLE2, 'Changes against no shrinking'))
+    primary = stats_of('mft-primary', *scene, '--param', 'cull_backface=1')
+    for variant, shrink in {'No Shrink': 'none', 'CR': 'corner-rays', 'FS': 'frusta', 'Ray-AABB': 'ray-aabb'}.items():
+        stats = stats_of('mft-soft', *scene, '--param', 'cull_backface=1', '--param', 'shrink=' + shrink)
+        row = rows[variant]
+        for name, counter in {'triangle accesses': 'tri_accesses', 'after culling': 'tri_after_culling', 'AABB tests': 'aabb_tests',
+                              'intersection tests': 'isect_tests'}.items():
+            assert row[name] == stats['counts'][counter] - primary['counts'][counter] >= 0, (variant, name)
+        assert row['cycles'] == stats['cycles']['total'] - primary['cycles']['total'] > 0
+        assert row['cycles of the frame'] == stats['cycles']['total'] and row['additional tests'] == stats['counts']['additional_tests']
+    assert abs(changes['CR']['intersection tests'] - 100 * (rows['CR']['intersection tests'] / rows['No Shrink']['intersection tests'] - 1)) < 0.06
+    published = [row for row in tables[TABLE2] if row['basis'] == 'published']
+    assert [row['variant'] for row in published if row['doubtful readings']] == ['CR'] and published[0]['AABB tests'] == 1459000
+    assert tables['Where changes differ'] == []
+
+
+def mft_table2__own_scene__sampled(folder):
+    scene = own_scene(folder)
+    if unread(scene):
+        return unread(scene)
+    rows = report(folder, 'mft-table2', '--scene', scene, '--size', '48x48', '--error', '0.1', '--no-pictures')[TABLE2]
+    assert [row['basis'] for row in rows] == ['measured'] * 4 + ['published'] * 4
+    assert rows[0]['scene'] == 'own scene' and rows[4]['group'] == 'published, not measured here'
+    return None
+
+
+def mft_light_size__own_scene__as_run_alone(folder):
+    scene = ['--scene', own_scene(folder), '--size', '32x32']
+    if unread(scene[1]):
+        return unread(scene[1])
+    tables = report(folder, 'mft-light-size', *scene)
+    runs = {(row['light scale'], row['algorithm']): row for row in tables['Soft shadows by the size of the light']}
+    assert len(runs) == 10
+    for scale in (0.125, 2):
+        for kernel, algorithm in (('packet16-soft', 'S-Packet'), ('mft-soft', 'S-Frusta')):
+            stats = stats_of(kernel, *scene, '--param', 'cull_backface=1', '--light-scale', str(scale))
+            row = runs[(scale, algorithm)]
+            assert row['cycles'] == stats['cycles']['total'] and row['AABB tests'] == stats['counts']['aabb_tests']
+            assert row['shadow rays'] == stats['counts']['rays_shadow']
+    ratios = tables['Packets / frusta by the size of the light']
+    assert [row['light scale'] for row in ratios] == [0.125, 0.25, 0.5, 1, 2] + [None] * 4
+    assert all(abs(row['cycles'] - runs[(row['light scale'], 'S-Packet')]['cycles'] / runs[(row['light scale'], 'S-Frusta')]['cycles']) < 0.006
+               for row in ratios[:5])
+    return None
+
+
+def mft_quality__builtin_scene__errors_fall_with_samples(folder):
+    scene = ['--scene', 'builtin:rooms-804', '--size', '24x24']
+    pictures = [] if HAVE_IMAGES else ['--no-pictures']
+    tables = report(folder, 'mft-quality', *scene, *pictures)
+    ways = {(row['samples'], row['interleaved'], row['filter']): row for row in tables['Soft shadows: cycles, and error of the visibility']}
+    assert len(ways) == 14
+    for interleaved, number in (('no', 0), ('yes', 1)):
+        stats = stats_of('mft-soft', *scene, '--samples', '4', '--param', 'cull_backface=1', '--param', 'interleaved=%d' % number)
+        assert ways[(4, interleaved, 'no')]['cycles'] == ways[(4, interleaved, 'yes')]['cycles'] == stats['cycles']['total']
+        errors = [ways[(samples, interleaved, 'no')]['inside penumbrae, RMSE'] for samples in (4, 16, 64)] + [ways[(256, 'no', 'no')]['inside penumbrae, RMSE']]
+        assert errors == sorted(errors, reverse=True) and errors[0] > 4 * errors[3] > 0, errors
+    assert all(row['inside penumbrae, RMSE'] <= row['inside penumbrae, worst'] <= 1 for row in ways.values())
+    figure = tables['Figure 5: 16 samples against 256']
+    assert [row['picture'] for row in figure[::4]] == ['24x24', '48x48', '96x96'] and all(row['shadow rays'] == 6.25 for row in figure)
+    assert figure[3]['inside penumbrae, RMSE'] > figure[11]['inside penumbrae, RMSE'] > 0
+    if HAVE_IMAGES:
+        assert all(os.path.exists(folder + '/out/rooms-804-' + rest) for rest in ('256-samples.png', '16-interleaved-filtered.png'))
+
+
+def mft_quality__own_scene__every_form(folder):
+    scene = own_scene(folder)
+    if unread(scene):
+        return unread(scene)
+    tables = report(folder, 'mft-quality', '--scene', scene, '--size', '16x16', '--no-pictures')
+    assert {row['scene'] for rows in tables.values() for row in rows} == {'own scene'}
     return None
 
 

@@ -10,8 +10,11 @@
 #include <string.h>
 
 #include "reports/paper.h"
+#include "reports/views/mft_light_size.h"
 #include "reports/views/mft_prediction.h"
+#include "reports/views/mft_quality.h"
 #include "reports/views/mft_table1.h"
+#include "reports/views/mft_table2.h"
 #include "reports/views/model_speeds.h"
 
 /* A cell of a table's JSON. */
@@ -130,6 +133,131 @@ static void table1__large_difference__in_words_and_a_small_one_not(void **state)
     json_decref(other);
 }
 
+static void paper__rows_of_table_2__doubts_named_and_absent_cells_missing(void **state)
+{
+    (void)state;
+    for (size_t shrink = 0; shrink < MFT_SHRINKS; shrink++) {
+        const mft_paper_row row = mft_paper_shrink_row(shrink);
+        for (int m = 0; m < MFT_CYCLES; m++)
+            assert_true(row.value[m] > 0 && isnan(mft_paper_shrink_change(shrink, (mft_metric)m)) == (shrink == 0));
+        assert_true(isnan(row.value[MFT_CYCLES]));
+        assert_string_equal(row.doubt, strcmp(mft_shrink_names[shrink], "CR") == 0 ? "uncertain: after culling" : "");
+    }
+    assert_true(isnan(mft_paper_additional_tests(0)) && mft_paper_additional_tests(1) == 386e3);
+    assert_true(fabs(mft_paper_shrink_change(3, MFT_AABB) - 155) < 1e-9);
+}
+
+/* The counts of the paper, on the scene that stands in for its own. */
+static void fill_shrink_rows(mft_shrink_row rows[MFT_SHRINKS], const char *scene)
+{
+    for (size_t shrink = 0; shrink < MFT_SHRINKS; shrink++) {
+        rows[shrink] = (mft_shrink_row){.scene = scene, .shrink = shrink, .additional = mft_paper_additional_tests(shrink), .frame = 1000 - 50 * (double)shrink};
+        for (int m = 0; m < MFT_CYCLES; m++)
+            rows[shrink].value[m] = mft_paper_shrink_row(shrink).value[m];
+        rows[shrink].value[MFT_CYCLES] = 800 - 40 * (double)shrink;
+    }
+}
+
+static void table2__counts_of_the_paper__its_changes(void **state)
+{
+    (void)state;
+    mft_shrink_row rows[MFT_SHRINKS];
+    fill_shrink_rows(rows, "creature-69k");
+    json_t *changes = json_of(mft_table2_changes(rows, MFT_SHRINKS, NULL)), *same = json_of(mft_table2_differences(rows, MFT_SHRINKS));
+    assert_int_equal(json_array_size(json_object_get(changes, "rows")), 6);
+    assert_true(fabs(number(changes, 0, "intersection tests") - number(changes, 1, "intersection tests")) < 0.1);
+    assert_true(fabs(number(changes, 4, "AABB tests") - number(changes, 5, "AABB tests")) < 1);
+    assert_true(fabs(number(changes, 0, "cycles") + 5) < 0.06 && fabs(number(changes, 2, "cycles of the frame") + 10) < 0.06);
+    assert_string_equal(json_string_value(cell(changes, 1, "doubtful readings")), "uncertain: after culling");
+    assert_true(json_is_null(cell(changes, 1, "cycles")) && json_is_null(cell(changes, 3, "doubtful readings")));
+    assert_int_equal(json_array_size(json_object_get(same, "rows")), 0);
+    rows[1].value[MFT_ISECT] = rows[0].value[MFT_ISECT];
+    json_t *other = json_of(mft_table2_differences(rows, MFT_SHRINKS));
+    assert_int_equal(json_array_size(json_object_get(other, "rows")), 1);
+    assert_non_null(strstr(json_string_value(cell(other, 0, "in words")), "shrinks 0.071 times"));
+    json_decref(changes);
+    json_decref(same);
+    json_decref(other);
+}
+
+static void table2__other_scenes__published_rows_apart(void **state)
+{
+    (void)state;
+    mft_shrink_row rows[2 * MFT_SHRINKS];
+    fill_shrink_rows(rows, "a");
+    fill_shrink_rows(rows + MFT_SHRINKS, "b");
+    json_t *counts = json_of(mft_table2_counts(rows, 2 * MFT_SHRINKS, NULL)), *none = json_of(mft_table2_differences(rows, 2 * MFT_SHRINKS));
+    assert_int_equal(json_array_size(json_object_get(counts, "rows")), 3 * MFT_SHRINKS);
+    assert_string_equal(json_string_value(cell(counts, 8, "group")), "published, not measured here");
+    assert_string_equal(json_string_value(cell(counts, 8, "basis")), "published");
+    assert_int_equal(json_array_size(json_object_get(none, "rows")), 0);
+    json_decref(counts);
+    json_decref(none);
+}
+
+static void light_size__two_scenes__ratios_and_a_series_for_each(void **state)
+{
+    (void)state;
+    const mft_row packet = {.scene = "a", .algorithm = MFT_S_PACKET, .pixels = 10, .value = {8, 8, 24, 6, 90}};
+    const mft_row frusta = {.scene = "a", .algorithm = MFT_S_FRUSTA, .pixels = 10, .value = {4, 2, 2, 12, 30}};
+    mft_light_row rows[4] = {{.scale = 0.5, .packet = packet, .frusta = frusta, .penumbra = 0.25}, {.scale = 1, .packet = packet, .frusta = packet}};
+    mft_light_series series;
+    rows[2] = rows[0];
+    rows[3] = rows[1];
+    rows[2].packet.scene = rows[3].packet.scene = "b";
+    json_t *table = json_of(mft_light_size_reductions(rows, 4, NULL)), *counts = json_of(mft_light_size_counts(rows, 4, NULL));
+    assert_int_equal(json_array_size(json_object_get(counts, "rows")), 8);
+    assert_true(number(table, 0, "cycles") == 3 && number(table, 0, "AABB tests") == 12 && number(table, 0, "intersection tests") == 0.5);
+    assert_true(number(table, 1, "cycles") == 1 && number(table, 2, "light scale") == 0.5 && number(table, 0, "penumbra") == 25);
+    assert_true(json_is_null(cell(table, 4, "light scale")) && fabs(number(table, 4, "AABB tests") - 36234.0 / 1518) < 0.01);
+    assert_int_equal(mft_light_series_create(rows, 4, 2, &series, NULL), BASE_OK);
+    assert_int_equal(series.count, 4);
+    assert_string_equal(series.series[2].name, "b, cycles");
+    assert_true(series.series[0].x[1] == 1 && series.series[0].y[0] == 3 && series.series[1].y[0] == 12);
+    mft_light_series_destroy(&series);
+    json_decref(table);
+    json_decref(counts);
+}
+
+static void quality__errors__by_region_of_the_reference_and_hits_only(void **state)
+{
+    (void)state;
+    const float reference[] = {0, 1, 0.5f, 0.25f, 0.5f, 1}, seen[] = {0, 0.5f, 0.75f, 0.25f, 0, 0};
+    const unsigned char mask[] = {1, 1, 1, 1, 1, 0};
+    mft_error error[MFT_REGIONS];
+    mft_errors_of(seen, reference, mask, 6, error);
+    assert_true(error[MFT_INSIDE].pixels == 3 && error[MFT_OUTSIDE].pixels == 2);
+    assert_true(fabs(error[MFT_INSIDE].rmse - sqrt((0.0625 + 0.25) / 3)) < 1e-12 && fabs(error[MFT_INSIDE].bias + 0.25 / 3) < 1e-12);
+    assert_true(error[MFT_INSIDE].worst == 0.5 && error[MFT_OUTSIDE].worst == 0.5 && error[MFT_OUTSIDE].bias == -0.25);
+    mft_errors_of(seen, reference, mask, 0, error);
+    assert_true(error[MFT_INSIDE].pixels == 0 && isnan(error[MFT_INSIDE].rmse));
+}
+
+static void quality__tables_and_points__rows_in_their_order(void **state)
+{
+    (void)state;
+    mft_quality_row rows[MFT_QUALITY_WAYS] = {{0}};
+    mft_quality_points points;
+    for (unsigned i = 0; i < MFT_QUALITY_WAYS; i++)
+        rows[i] = (mft_quality_row){.scene = "a", .samples = mft_quality_samples[i / 4], .interleaved = i / 2 % 2, .filtered = i % 2,
+                                    .rays = mft_quality_samples[i / 4], .cycles = 10 * mft_quality_samples[i / 4], .cycles_per_pixel = i / 4 + 1,
+                                    .error = {{.rmse = 1.0 / (i + 1), .pixels = 1}}};
+    const mft_figure5_row figure[] = {{.scene = "a", .width = 8, .height = 6, .rays = 0.0625, .error = {{.rmse = 0.5, .pixels = 1}}},
+                                      {.scene = "a", .width = 16, .height = 12, .interleaved = true, .filtered = true, .rays = 0.0625}};
+    json_t *table = json_of(mft_quality_figure5(figure, 2, NULL)), *all = json_of(mft_quality_errors(rows, MFT_QUALITY_WAYS, NULL));
+    assert_int_equal(json_array_size(json_object_get(all, "rows")), MFT_QUALITY_WAYS);
+    assert_true(number(table, 1, "shadow rays") == 6.25 && number(table, 0, "inside penumbrae, RMSE") == 0.5);
+    assert_true(json_is_null(cell(table, 0, "outside, worst")));
+    assert_string_equal(json_string_value(cell(table, 1, "picture")), "16x12");
+    assert_string_equal(json_string_value(cell(table, 1, "interleaved")), "yes");
+    mft_quality_points_of(rows, &points);
+    assert_true(points.x[3][1] == 2 && fabs(points.y[3][1] - 1.0 / 8) < 1e-12);
+    assert_true(points.y[3][3] == points.y[1][3] && fabs(points.y[0][3] - 1.0 / 13) < 1e-12);
+    assert_string_equal(points.series[3].name, "interleaved, filtered");
+    json_decref(table);
+    json_decref(all);
+}
+
 static void models__median_and_worst__by_size(void **state)
 {
     (void)state;
@@ -158,6 +286,12 @@ int main(void)
         cmocka_unit_test(prediction__known_costs__known_cycles),
         cmocka_unit_test(prediction__event_that_did_not_happen__rows_missing_and_said),
         cmocka_unit_test(table1__large_difference__in_words_and_a_small_one_not),
+        cmocka_unit_test(paper__rows_of_table_2__doubts_named_and_absent_cells_missing),
+        cmocka_unit_test(table2__counts_of_the_paper__its_changes),
+        cmocka_unit_test(table2__other_scenes__published_rows_apart),
+        cmocka_unit_test(light_size__two_scenes__ratios_and_a_series_for_each),
+        cmocka_unit_test(quality__errors__by_region_of_the_reference_and_hits_only),
+        cmocka_unit_test(quality__tables_and_points__rows_in_their_order),
         cmocka_unit_test(models__median_and_worst__by_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
