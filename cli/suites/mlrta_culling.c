@@ -76,7 +76,7 @@ static base_status measure_one(const suite *s, const suite_scene *on, measured *
                                    .packets = mlrta_packets(s), .counts = mlrta_counts_of(&result)};
         compare(&result, reference, row);
     }
-    if (status == BASE_OK && size && culling == KERNEL_CULL_CORNER_RAYS && !s->options->no_pictures)
+    if (status == BASE_OK && !size && culling == KERNEL_CULL_CORNER_RAYS && !s->options->no_pictures)
         status = write_lost(s, on, m, &result, reference, err);
     run_result_destroy(&result);
     return status;
@@ -100,7 +100,7 @@ static base_status add_pictures(suite *s, const measured *m, base_error *err)
 {
     base_status status = BASE_OK;
     report_page_add_heading(s->page, 1, "What corner rays lose");
-    report_page_add_paragraph(s->page, "Pixels whose nearest hit is lost are red: corner rays of unsplit tiles of 256x256 pixels.");
+    report_page_add_paragraph(s->page, "Pixels whose nearest hit is lost are red: corner rays of tiles of the default sizes.");
     for (size_t i = 0; status == BASE_OK && i < m->scenes; i++)
         status = report_page_add_pictures(s->page, &(report_figure){m->pictures[i], "picture with lost hits in red", s->scenes[i].name}, 1, err);
     return status;

@@ -35,7 +35,7 @@ static const setting settings[] = {
     {"rules of the tree", "covered_planes=0"},
     {"rules of the tree", "perfect_splits=0"},
     {"rules of the tree", "min_area=0"},
-    {"rules of the tree", "min_area=1000"},
+    {"rules of the tree", "min_area=100"},
     {"rules of the tree", "min_area=10000"},
     {"rules of the tree", "empty_percent=100 covered_planes=0 min_area=0"},
 };
@@ -134,6 +134,6 @@ const suite_info suite_mlrta_params = {
     .about = "Initial tile size, split factor and minimal tile size of multi-level ray tracing (Reshetov, Soupikov and Hurley 2005, 4.2), "
              "what its searches and packets may do, and the rules by which its kd-tree is built (3.1), each changed by itself.",
     .scenes = mlrta_suite_scenes,
-    .size = 512,
+    .size = 1024,
     .measure = measure,
 };

@@ -71,7 +71,7 @@ const suite_info suite_mlrta_table1 = {
              "shader, of packets from the root of a kd-tree (kd16-primary), of multi-level ray tracing (mlrta-primary) and of the two "
              "tracers through a BVH on the same rays, on one simulated core; and as published.",
     .scenes = mlrta_suite_scenes,
-    .size = 512,
+    .size = 1024,
     .takes = SUITE_TAKES_ERROR,
     .measure = measure,
 };

@@ -8,7 +8,7 @@ from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
 SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-prediction', 'stability', 'mlrta-table1', 'mlrta-table2', 'mlrta-table3',
-          'mlrta-culling', 'mlrta-params']
+          'mlrta-tiles', 'mlrta-culling', 'mlrta-params']
 
 
 def own_scene(folder):
@@ -222,6 +222,20 @@ def mlrta_table1__builtin_scene__frames_of_the_core_models_cycles(folder):
         assert rows[kernel]['simple shader'] is None
     assert rows['MLRTA 2.4 GHz P4 1 thread']['null shader'] == 70.2 and rows['MLRTA 2.4 GHz P4 1 thread']['simple shader'] == 37.8
     fails(['report', 'mlrta-table1', '--set', 'cores=2', '--out', folder + '/no'], 'cores')
+
+
+def mlrta_tiles__two_scenes__drawn_as_the_kernel_counts(folder):
+    for scene in ('rooms-804', 'hall-60k'):
+        where = ['--scene', 'builtin:' + scene, '--size', '300x200']
+        rows = report(folder, 'mlrta-tiles', *where, *([] if HAVE_IMAGES else ['--no-pictures']))['Tiles by size']
+        by_size = {r['tiles']: r for r in rows}
+        drawn, counted = by_size.pop('all, as drawn'), by_size.pop('all, as the kernel counted')
+        n = stats_of('mlrta-primary', *where, '--model', 'native')['counts']['units']
+        assert (counted['searched'], counted['divergent']) == (n['tiles'], n['divergent_tiles'])
+        assert (drawn['searched'], drawn['divergent']) == (n['tiles'], n['divergent_tiles']), scene
+        assert by_size['128x128']['searched'] + by_size['128x128']['divergent'] == 6 and '32x32' in by_size
+        assert sum(r['divergent'] for r in by_size.values()) > 0
+        assert os.path.exists('%s/out/%s-mlrta-tiles.png' % (folder, scene)) == HAVE_IMAGES
 
 
 def mlrta_culling__builtin_scene__only_corner_rays_lose_hits(folder):
