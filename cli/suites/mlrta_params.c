@@ -11,20 +11,22 @@ typedef struct setting {
     const char *kind, *assignments;
 } setting;
 
+static const char split_kind[] = "splitting"; /* these are in the plot, with the defaults */
+
 static const setting settings[] = {
     {"nothing", ""},
     {"initial tile", "its=16"},
     {"initial tile", "its=32"},
     {"initial tile", "its=64"},
     {"initial tile", "its=256"},
-    {"splitting", "sf=16 mts=4"},
-    {"splitting", "sf=16 mts=8"},
-    {"splitting", "sf=16 mts=128"},
-    {"splitting", "sf=4 mts=4"},
-    {"splitting", "sf=4 mts=8"},
-    {"splitting", "sf=4 mts=16"},
-    {"splitting", "sf=4 mts=32"},
-    {"splitting", "sf=4 mts=64"},
+    {split_kind, "sf=16 mts=4"},
+    {split_kind, "sf=16 mts=8"},
+    {split_kind, "sf=16 mts=128"},
+    {split_kind, "sf=4 mts=4"},
+    {split_kind, "sf=4 mts=8"},
+    {split_kind, "sf=4 mts=16"},
+    {split_kind, "sf=4 mts=32"},
+    {split_kind, "sf=4 mts=64"},
     {"search", "ends=0"},
     {"search", "empty_occluders=0"},
     {"packets", "divergent=xp"},
@@ -93,6 +95,10 @@ static base_status measure_setting(const suite *s, const suite_scene *on, const 
             status = run_kernel(on->scene, s->options->machine, &options, &result, err);
         if (status == BASE_OK) {
             row->counted.counts[a] = mlrta_counts_of(&result);
+            if (a == MLRTA_WITH && (row == defaults || strcmp(set->kind, split_kind) == 0)) {
+                row->parts = 4u << 2 * options.params.sf;
+                row->least = 4u << options.params.mts;
+            }
             row->nodes = (double)(result.kdtree->inner_count + result.kdtree->leaf_count);
         }
         run_result_destroy(&result);
@@ -110,6 +116,19 @@ static base_status measure_scene(suite *s, const suite_scene *on, void *user, ba
     return status;
 }
 
+static base_status add_plot(suite *s, const measured *m, base_error *err)
+{
+    mlrta_params_plot curves;
+    base_status status = mlrta_params_plot_create(m->rows, m->count, &curves, err);
+    const report_plot plot = {"What splitting tiles saves", {"tiles of this edge are not split (pixels)", true},
+                              {"traversed cells, no MLRT / MLRT", false}, curves.series, curves.count};
+    if (status == BASE_OK)
+        status = suite_add_plot(s, "-splitting", &plot, "Reduction of the traversed cells, inner nodes and leaves, by the smallest tile that "
+                                                        "has an entry point of its own; initial tiles of 128x128 pixels.", err);
+    mlrta_params_plot_destroy(&curves);
+    return status;
+}
+
 static base_status measure(suite *s, base_error *err)
 {
     char caption[240];
@@ -123,6 +142,9 @@ static base_status measure(suite *s, base_error *err)
     report_page_add_heading(s->page, 1, "Table");
     if (status == BASE_OK)
         status = suite_add_table(s, "", mlrta_params_table(m.rows, m.count, caption), err);
+    report_page_add_heading(s->page, 1, "Plot");
+    if (status == BASE_OK)
+        status = add_plot(s, &m, err);
     free(m.rows);
     return status;
 }

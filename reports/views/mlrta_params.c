@@ -1,6 +1,7 @@
 #include "reports/views/mlrta_params.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void add_number(report_table *t, const char *name, const char *unit, int decimals)
@@ -49,7 +50,7 @@ report_table *mlrta_params_table(const mlrta_params_row *rows, size_t count, con
     for (size_t i = 0; i < count; i++) {
         if (i && strcmp(rows[i].kind, rows[i - 1].kind) != 0)
             report_table_begin_group(t, NULL);
-        if (strcmp(rows[i].counted.scene, defaults->counted.scene) != 0)
+        if (rows[i].counted.scene != defaults->counted.scene)
             defaults = &rows[i];
         add_row(t, &rows[i], defaults);
     }
@@ -63,4 +64,55 @@ report_table *mlrta_params_table(const mlrta_params_row *rows, size_t count, con
     report_table_add_note(t, "Cells are inner nodes and leaves. A setting that packets from the root do not have leaves their columns "
                              "as they are. All settings hit the same; only the work differs.");
     return t;
+}
+
+/* The curve of a row, a new one if it is the first of its scene and split factor. */
+static mlrta_params_curve *curve_of(mlrta_params_plot *plot, const mlrta_params_row *row)
+{
+    for (size_t i = 0; i < plot->count; i++)
+        if (plot->curves[i].scene == row->counted.scene && plot->curves[i].parts == row->parts)
+            return &plot->curves[i];
+    mlrta_params_curve *curve = &plot->curves[plot->count++];
+    curve->scene = row->counted.scene;
+    curve->parts = row->parts;
+    snprintf(curve->name, sizeof curve->name, "%s, split into %u", row->counted.scene, row->parts);
+    return curve;
+}
+
+/* Keep the points of a curve in order of their edges. */
+static void add_point(mlrta_params_curve *curve, const mlrta_params_row *row)
+{
+    const mlrta_counts *n = row->counted.counts;
+    size_t at = curve->count++;
+    for (; at && curve->least[at - 1] > row->least; at--) {
+        curve->least[at] = curve->least[at - 1];
+        curve->reduction[at] = curve->reduction[at - 1];
+    }
+    curve->least[at] = row->least;
+    curve->reduction[at] = n[MLRTA_WITHOUT].cells / n[MLRTA_WITH].cells;
+}
+
+base_status mlrta_params_plot_create(const mlrta_params_row *rows, size_t count, mlrta_params_plot *out, base_error *err)
+{
+    size_t places = 0;
+    for (size_t i = 0; i < count; i++)
+        places += rows[i].parts > 0;
+    *out = (mlrta_params_plot){.curves = calloc(places + 1, sizeof *out->curves), .series = calloc(places + 1, sizeof *out->series)};
+    if (!out->curves || !out->series)
+        return base_fail(err, BASE_ERR_NOMEM, "plot", "out of memory for %zu points", places);
+    for (size_t i = 0; i < count; i++)
+        if (rows[i].parts)
+            add_point(curve_of(out, &rows[i]), &rows[i]);
+    for (size_t i = 0; i < out->count; i++) {
+        const mlrta_params_curve *curve = &out->curves[i];
+        out->series[i] = (report_series){.name = curve->name, .x = curve->least, .y = curve->reduction, .count = curve->count, .line = REPORT_LINE_POINTS};
+    }
+    return BASE_OK;
+}
+
+void mlrta_params_plot_destroy(mlrta_params_plot *plot)
+{
+    free(plot->curves);
+    free(plot->series);
+    *plot = (mlrta_params_plot){0};
 }

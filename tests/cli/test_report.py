@@ -1,11 +1,13 @@
 """lanetrace report from outside: the suites, their files, bad input. test_report.py LANETRACE [--no-images]; TAP on stdout."""
 import json
 import os
+import shutil
 import subprocess
 import sys
 
 from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
+HAVE_GNUPLOT = shutil.which('gnuplot') is not None
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
 SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-prediction', 'stability', 'mlrta-table1', 'mlrta-table2', 'mlrta-table3',
           'mlrta-tiles', 'mlrta-culling', 'mlrta-params']
@@ -254,6 +256,7 @@ def mlrta_culling__builtin_scene__only_corner_rays_lose_hits(folder):
 def mlrta_params__builtin_scene__each_setting_as_run_alone(folder):
     rows = report(folder, 'mlrta-params', *ROOMS)['Parameters of multi-level ray tracing and of its tree']
     by_setting = {r['setting']: r for r in rows}
+    assert os.path.exists(folder + '/out/mlrta-params-splitting.png') == HAVE_GNUPLOT
     defaults = by_setting['defaults']
     assert len(by_setting) == len(rows) > 20
     for setting in ('sf=4 mts=8', 'covered_planes=0', 'mailbox=0'):
