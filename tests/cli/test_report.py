@@ -1,13 +1,16 @@
 """lanetrace report from outside: the suites, their files, bad input. test_report.py LANETRACE [--no-images]; TAP on stdout."""
 import json
 import os
+import shutil
 import subprocess
 import sys
 
 from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
+HAVE_GNUPLOT = shutil.which('gnuplot') is not None
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-table2', 'mft-light-size', 'mft-quality', 'mft-prediction', 'stability']
+SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-table2', 'mft-light-size', 'mft-quality', 'mft-prediction', 'stability',
+          'mlrta-table1', 'mlrta-table2', 'mlrta-table3', 'mlrta-tiles', 'mlrta-culling', 'mlrta-params']
 
 
 def own_scene(folder):
@@ -257,6 +260,103 @@ def mft_prediction__own_scene__all_forms(folder):
         return unread(scene)
     tables = report(folder, 'mft-prediction', '--scene', scene, '--size', '16x16', '--no-pictures', '--machine', 'knc', '--set', 'threads=2')
     assert {r['machine'] for r in tables['What events cost']} == {'2 threads', '1 thread', '2 threads, no cache misses', '1 thread, no cache misses'}
+    return None
+
+
+ROOMS = ['--scene', 'builtin:rooms-804', '--size', '128x96']
+BY_READING = {('traversed cells', 'inner nodes'): lambda n: n['traversed_inner'], ('traversed cells', 'inner nodes and leaves'): lambda n: n['traversed_cells'],
+              ('intersections', 'tests that give a nearer hit'): lambda n: n['isect_hits'], ('intersections', 'tests'): lambda n: n['isect_tests'],
+              ('intersections', 'tests without a mailbox'): lambda n: n['isect_tests'] + n['mailbox_hits']}
+
+
+def counts_of(kernel, *arguments):
+    return stats_of(kernel, '--model', 'native', *arguments)['counts']
+
+
+def mlrta_tables_2_and_3__builtin_scene__counts_a_packet_as_run_alone_and_published_beside(folder):
+    for number, rays, of_paper in (('2', 'primary', (13.00, 3.98)), ('3', 'shadow', (24.83, 10.07))):
+        tables = report(folder, 'mlrta-table' + number, *ROOMS)
+        rows = next(rows for title, rows in tables.items() if title.startswith('MLRTA Table ' + number))
+        by_reading = {(r['count'], r['reading']): r for r in rows if r['scene'] == 'rooms-804'}
+        counts = {column: counts_of('%s-%s' % (kernel, rays), *ROOMS) for column, kernel in (('no MLRT', 'kd16'), ('MLRT', 'mlrta'))}
+        for reading, total in BY_READING.items():
+            for column, n in counts.items():
+                assert abs(by_reading[reading][column] - total(n) / (32 * 24)) < 0.00501, (number, reading, column)
+            assert abs(by_reading[reading]['reduction'] - total(counts['no MLRT']) / total(counts['MLRT'])) < 0.00501
+        searches = by_reading[('cells, EP only', 'inner nodes and leaves')]
+        assert searches['no MLRT'] is None and abs(searches['MLRT'] - counts['MLRT']['ep_cells'] / (32 * 24)) < 0.00501
+        assert searches['MLRT, published'] == (0.51 if number == '2' else None)
+        cells = by_reading[('traversed cells', 'inner nodes')]
+        assert (cells['no MLRT, published'], cells['MLRT, published']) == of_paper
+        assert {r['scene'] for r in rows if r['reading'] == 'published, not measured here'} == {
+            'Conference (274K tri)', 'Soda Hall (2195K tri)', 'Asian Dragon (7M tri)'}
+        assert [r['packets of the picture'] for r in tables['Packets, tiles and searches']] == [32 * 24] * 2
+
+
+def mlrta_table1__builtin_scene__frames_of_the_core_models_cycles(folder):
+    small = ['--scene', 'builtin:rooms-804', '--size', '32x24']
+    tables = report(folder, 'mlrta-table1', *small)
+    rows = {r['system']: r for r in next(iter(tables.values())) if r['scene'] in ('rooms-804', 'Erw6 (804 tri)')}
+    for kernel in ('kd16-primary', 'mlrta-primary', 'packet16-primary', 'mft-primary'):
+        cycles = stats_of(kernel, *small)['cycles']['total']
+        rays = 32 * 24 * 1e9 / cycles
+        assert abs(rows[kernel]['null shader, rays'] - rays / 1e6) < 0.0501 and abs(rows[kernel]['null shader'] - rays / 1024 ** 2) < 0.00501
+        assert rows[kernel]['simple shader'] is None
+    assert rows['MLRTA 2.4 GHz P4 1 thread']['null shader'] == 70.2 and rows['MLRTA 2.4 GHz P4 1 thread']['simple shader'] == 37.8
+    fails(['report', 'mlrta-table1', '--set', 'cores=2', '--out', folder + '/no'], 'cores')
+
+
+def mlrta_tiles__two_scenes__drawn_as_the_kernel_counts(folder):
+    for scene in ('rooms-804', 'hall-60k'):
+        where = ['--scene', 'builtin:' + scene, '--size', '300x200']
+        rows = report(folder, 'mlrta-tiles', *where, *([] if HAVE_IMAGES else ['--no-pictures']))['Tiles by size']
+        by_size = {r['tiles']: r for r in rows}
+        drawn, counted = by_size.pop('all, as drawn'), by_size.pop('all, as the kernel counted')
+        n = stats_of('mlrta-primary', *where, '--model', 'native')['counts']['units']
+        assert (counted['searched'], counted['divergent']) == (n['tiles'], n['divergent_tiles'])
+        assert (drawn['searched'], drawn['divergent']) == (n['tiles'], n['divergent_tiles']), scene
+        assert by_size['128x128']['searched'] + by_size['128x128']['divergent'] == 6 and '32x32' in by_size
+        assert sum(r['divergent'] for r in by_size.values()) > 0
+        assert os.path.exists('%s/out/%s-mlrta-tiles.png' % (folder, scene)) == HAVE_IMAGES
+
+
+def mlrta_culling__builtin_scene__only_corner_rays_lose_hits(folder):
+    rows = report(folder, 'mlrta-culling', *ROOMS, *([] if HAVE_IMAGES else ['--no-pictures']))['Ways to cull in entry-point searches']
+    assert len(rows) == 6 and all(r['hits'] > 0 for r in rows)
+    assert all(r['lost hits'] == 0 for r in rows if r['culling'] != 'corner rays')
+    assert max(r['lost hits'] for r in rows if r['culling'] == 'corner rays') > 0
+    inverse, direct = rows[:2]
+    for row, culling in ((inverse, 'inverse'), (direct, 'direct')):
+        n = counts_of('mlrta-primary', *ROOMS, '--param', 'culling=' + culling)
+        assert row['culling'] == culling and abs(row['EP steps'] - n['ep_cells'] / (32 * 24)) < 0.000501
+    assert inverse['EP steps, against inverse'] == 0
+    assert os.path.exists(folder + '/out/rooms-804-mlrta-corner-rays-lost.png') == HAVE_IMAGES
+
+
+def mlrta_params__builtin_scene__each_setting_as_run_alone(folder):
+    rows = report(folder, 'mlrta-params', *ROOMS)['Parameters of multi-level ray tracing and of its tree']
+    by_setting = {r['setting']: r for r in rows}
+    assert os.path.exists(folder + '/out/mlrta-params-splitting.png') == HAVE_GNUPLOT
+    defaults = by_setting['defaults']
+    assert len(by_setting) == len(rows) > 20
+    for setting in ('sf=4 mts=8', 'covered_planes=0', 'mailbox=0'):
+        words = [word for assignment in setting.split() for word in ('--param', assignment)]
+        n = counts_of('mlrta-primary', *ROOMS, *words)
+        assert abs(by_setting[setting]['cells, MLRT'] - n['traversed_cells'] / (32 * 24)) < 0.00501, setting
+        assert abs(by_setting[setting]['tests, MLRT'] - n['isect_tests'] / (32 * 24)) < 0.00501, setting
+    n = counts_of('kd16-primary', *ROOMS, '--param', 'covered_planes=0')
+    assert abs(by_setting['covered_planes=0']['cells, no MLRT'] - n['traversed_cells'] / (32 * 24)) < 0.00501
+    assert by_setting['sf=4 mts=8']['cells, no MLRT'] == defaults['cells, no MLRT'] and defaults['MLRT, against defaults'] == 0
+
+
+def mlrta_suites__own_scene__all_forms(folder):
+    scene = own_scene(folder)
+    if unread(scene):
+        return unread(scene)
+    for suite in SUITES:
+        if suite.startswith('mlrta'):
+            tables = report(folder, suite, '--scene', scene, '--size', '40x20', '--no-pictures')
+            assert any(row['scene'] == 'own scene' for row in next(iter(tables.values()))), suite
     return None
 
 
