@@ -21,7 +21,7 @@
 #include "tests/kernels/accel/soup.h"
 #include "tests/kernels/trace.h"
 #include "tests/oracles/embree_oracle.h"
-#include "tests/oracles/exact.h"
+#include "exact/predicates.h"
 
 enum { JOBS = 2, WAYS = 5 };
 
