@@ -253,7 +253,7 @@ static base_status measure(suite *s, base_error *err)
     return status;
 }
 
-static const char *const scenes[] = {"builtin:creature-69k", "builtin:hall-60k", NULL};
+static const char *const scenes[] = {"builtin:rooms-804", "builtin:hall-60k", NULL};
 
 const suite_info suite_mft_quality = {
     .name = "mft-quality",
