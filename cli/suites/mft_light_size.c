@@ -26,7 +26,8 @@ static double penumbra_of(const run_result *r)
     return (double)partly / ((double)r->options.width * r->options.height);
 }
 
-static base_status measure_light(const suite *s, const suite_scene *on, mft_algorithm algorithm, mft_light_row *row, base_error *err)
+static base_status measure_light(const suite *s, const suite_scene *on, mft_algorithm algorithm, mft_light_row *row,
+                                 base_error *err)
 {
     run_result result = {0};
     run_options options = mft_run_options(s, algorithm);
@@ -71,8 +72,9 @@ static base_status add_plot(suite *s, const measured *m, base_error *err)
 static base_status add_results(suite *s, const measured *m, base_error *err)
 {
     char caption[200];
-    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, core model, %u threads; %u samples of the light, back faces culled.", s->width,
-             s->height, s->options->machine->name, s->options->machine->threads, kernel_find(mft_kernel(MFT_S_FRUSTA))->defaults.samples);
+    snprintf(caption, sizeof caption,
+             "%ux%u pixels, machine %s, core model, %u threads; %u samples of the light, back faces culled.", s->width, s->height,
+             s->options->machine->name, s->options->machine->threads, kernel_find(mft_kernel(MFT_S_FRUSTA))->defaults.samples);
     base_status status = suite_add_table(s, "-reductions", mft_light_size_reductions(m->rows, m->count, caption), err);
     if (status == BASE_OK && !s->options->no_pictures)
         status = add_plot(s, m, err);
@@ -98,9 +100,9 @@ const suite_info suite_mft_light_size = {
     .name = "mft-light-size",
     .summary = "packets against frusta for soft shadows as the light grows, core model (Benthin and Wald 2009, Figure 6)",
     .title = "MFT and the size of the light",
-    .about = "Soft shadows by packets of 16 rays and by multi-frusta tracing as the light's edges grow from an eighth of the scene's to twice, as "
-             "in Figure 6 of Benthin and Wald's 'Efficient Ray Traced Soft Shadows using Multi-Frusta Tracing' (2009): the narrower the frusta "
-             "of a hit point, the fewer boxes and triangles they meet.",
+    .about = "Soft shadows by packets of 16 rays and by multi-frusta tracing as the light's edges grow from an eighth of the "
+             "scene's to twice, as in Figure 6 of Benthin and Wald's 'Efficient Ray Traced Soft Shadows using Multi-Frusta "
+             "Tracing' (2009): the narrower the frusta of a hit point, the fewer boxes and triangles they meet.",
     .scenes = scenes,
     .size = 256,
     .takes = SUITE_TAKES_ERROR,

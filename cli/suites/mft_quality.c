@@ -1,4 +1,4 @@
-/* Suite mft-quality: Figure 5 of Benthin and Wald 2009, interleaved samples and a filter against many samples; speed against error. */
+/* Suite mft-quality: Figure 5 of Benthin and Wald 2009, interleaved samples and a filter against many; speed against error. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -12,7 +12,8 @@ enum { REFERENCE_SAMPLES = 4096, PICTURES = 4 };
 enum { DOUBLINGS = 2, FIGURE_ROWS = 4 * (DOUBLINGS + 1) };
 
 /* The rest of the pictures' file names, and what they show. */
-static const char *const rests[PICTURES] = {"-256-samples.png", "-16-samples.png", "-16-interleaved.png", "-16-interleaved-filtered.png"};
+static const char *const rests[PICTURES] = {"-256-samples.png", "-16-samples.png", "-16-interleaved.png",
+                                            "-16-interleaved-filtered.png"};
 static const char *const captions[PICTURES] = {"256 samples", "16 samples, the same for all pixels", "16 samples, interleaved",
                                                "16 samples, interleaved and filtered"};
 
@@ -55,7 +56,8 @@ static unsigned char *hits_of(const run_result *r, base_error *err)
     return mask;
 }
 
-static base_status write_picture(const suite *s, const suite_scene *on, measured *m, const run_result *r, int picture, const float *seen, base_error *err)
+static base_status write_picture(const suite *s, const suite_scene *on, measured *m, const run_result *r, int picture,
+                                 const float *seen, base_error *err)
 {
     report_image image = {0};
     char *path = m->paths[m->scenes][picture];
@@ -64,7 +66,8 @@ static base_status write_picture(const suite *s, const suite_scene *on, measured
 }
 
 /* Trace a picture whose edges are doubled `doublings` times; no cycles. */
-static base_status run_native(const suite *s, const suite_scene *on, unsigned doublings, unsigned samples, bool interleaved, run_result *result, base_error *err)
+static base_status run_native(const suite *s, const suite_scene *on, unsigned doublings, unsigned samples, bool interleaved,
+                              run_result *result, base_error *err)
 {
     run_options options = mft_run_options(s, MFT_S_FRUSTA);
     options.model = RUN_NATIVE;
@@ -90,7 +93,8 @@ static base_status measure_reference(const suite *s, const suite_scene *on, judg
 }
 
 /* One run makes two rows: as it was traced, and filtered. */
-static base_status measure_sixteen(const suite *s, const suite_scene *on, measured *m, unsigned doublings, bool interleaved, const figure *full, base_error *err)
+static base_status measure_sixteen(const suite *s, const suite_scene *on, measured *m, unsigned doublings, bool interleaved,
+                                   const figure *full, base_error *err)
 {
     run_result result = {0};
     base_status status = run_native(s, on, doublings, 16, interleaved, &result, err);
@@ -98,8 +102,12 @@ static base_status measure_sixteen(const suite *s, const suite_scene *on, measur
         mft_figure5_row *row = &m->figure_rows[m->figure_count++];
         const int picture = 1 + interleaved + filtered;
         float *seen = picture_visibility(&result, filtered, err);
-        *row = (mft_figure5_row){.scene = on->name, .width = s->width << doublings, .height = s->height << doublings, .interleaved = interleaved,
-                                 .filtered = filtered, .rays = (double)result.counts.n[KERNEL_rays_shadow] / full->rays};
+        *row = (mft_figure5_row){.scene = on->name,
+                                 .width = s->width << doublings,
+                                 .height = s->height << doublings,
+                                 .interleaved = interleaved,
+                                 .filtered = filtered,
+                                 .rays = (double)result.counts.n[KERNEL_rays_shadow] / full->rays};
         status = seen ? BASE_OK : BASE_ERR_NOMEM;
         if (status == BASE_OK)
             mft_errors_of(seen, full->seen, full->mask, (size_t)row->width * row->height, row->error);
@@ -111,7 +119,8 @@ static base_status measure_sixteen(const suite *s, const suite_scene *on, measur
     return status;
 }
 
-static base_status measure_figure(const suite *s, const suite_scene *on, measured *m, unsigned doublings, bool largest, base_error *err)
+static base_status measure_figure(const suite *s, const suite_scene *on, measured *m, unsigned doublings, bool largest,
+                                  base_error *err)
 {
     run_result result = {0};
     figure full = {.pictured = largest && !s->options->no_pictures};
@@ -146,7 +155,8 @@ static base_status measure_figures(const suite *s, const suite_scene *on, measur
 }
 
 /* One run makes two rows: as it was traced, and filtered. */
-static base_status measure_way(const suite *s, const suite_scene *on, measured *m, unsigned samples, bool interleaved, judge *j, base_error *err)
+static base_status measure_way(const suite *s, const suite_scene *on, measured *m, unsigned samples, bool interleaved, judge *j,
+                               base_error *err)
 {
     run_result result = {0};
     run_options options = mft_run_options(s, MFT_S_FRUSTA);
@@ -203,8 +213,8 @@ static base_status add_plots(suite *s, const measured *m, base_error *err)
         char suffix[40];
         mft_quality_points_of(m->rows + i * MFT_QUALITY_WAYS, &points);
         snprintf(suffix, sizeof suffix, "-%zu", i + 1);
-        const report_plot plot = {points.title, {"cycles per pixel, without the filter", true}, {"RMSE of the visibility inside penumbrae", true},
-                                  points.series, 4};
+        const report_plot plot = {points.title, {"cycles per pixel, without the filter", true},
+                                  {"RMSE of the visibility inside penumbrae", true}, points.series, 4};
         status = suite_add_plot(s, suffix, &plot, "The numbers are samples. The lower left is where one wants to be.", err);
     }
     return status;
@@ -228,8 +238,8 @@ static base_status add_results(suite *s, const measured *m, base_error *err)
 {
     char caption[200];
     base_status status = suite_add_table(s, "-figure5", mft_quality_figure5(m->figure_rows, m->figure_count, NULL), err);
-    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, core model, %u threads; kernel %s, back faces culled.", s->width, s->height,
-             s->options->machine->name, s->options->machine->threads, mft_kernel(MFT_S_FRUSTA));
+    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, core model, %u threads; kernel %s, back faces culled.", s->width,
+             s->height, s->options->machine->name, s->options->machine->threads, mft_kernel(MFT_S_FRUSTA));
     if (status == BASE_OK && !s->options->no_pictures)
         status = add_pictures(s, m, err);
     if (status == BASE_OK && !s->options->no_pictures)
@@ -240,9 +250,11 @@ static base_status add_results(suite *s, const measured *m, base_error *err)
 
 static base_status measure(suite *s, base_error *err)
 {
-    measured m = {.rows = calloc(s->scene_count * MFT_QUALITY_WAYS, sizeof *m.rows), .figure_rows = calloc(s->scene_count * FIGURE_ROWS, sizeof *m.figure_rows),
+    measured m = {.rows = calloc(s->scene_count * MFT_QUALITY_WAYS, sizeof *m.rows),
+                  .figure_rows = calloc(s->scene_count * FIGURE_ROWS, sizeof *m.figure_rows),
                   .paths = calloc(s->scene_count, sizeof *m.paths)};
-    base_status status = m.rows && m.figure_rows && m.paths ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
+    base_status status = m.rows && m.figure_rows && m.paths ? BASE_OK
+                                                            : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
     if (status == BASE_OK)
         status = suite_each_scene(s, measure_scene, &m, err);
     if (status == BASE_OK)
@@ -253,15 +265,16 @@ static base_status measure(suite *s, base_error *err)
     return status;
 }
 
-static const char *const scenes[] = {"builtin:creature-69k", "builtin:hall-60k", NULL};
+static const char *const scenes[] = {"builtin:rooms-804", "builtin:hall-60k", NULL};
 
 const suite_info suite_mft_quality = {
     .name = "mft-quality",
     .summary = "error of soft shadows against cycles, by samples, interleaving and filter (Benthin and Wald 2009, Figure 5)",
     .title = "MFT: speed against error",
-    .about = "Figure 5 of Benthin and Wald's 'Efficient Ray Traced Soft Shadows using Multi-Frusta Tracing' (2009): 16 samples of the light, "
-             "interleaved between neighbouring pixels and filtered, against 256, in pictures of three sizes; and the error of the visibility against 4096 samples beside "
-             "simulated cycles, for 4, 16, 64 and 256 samples, with and without interleaving and filter.",
+    .about = "Figure 5 of Benthin and Wald's 'Efficient Ray Traced Soft Shadows using Multi-Frusta Tracing' (2009): 16 samples "
+             "of the light, interleaved between neighbouring pixels and filtered, against 256, in pictures of three sizes; and "
+             "the error of the visibility against 4096 samples beside simulated cycles, for 4, 16, 64 and 256 samples, with and "
+             "without interleaving and filter.",
     .scenes = scenes,
     .size = 128,
     .takes = SUITE_TAKES_ERROR,

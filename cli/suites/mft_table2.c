@@ -10,7 +10,8 @@ typedef struct measured {
     size_t count;
 } measured;
 
-static base_status measure_shrink(const suite *s, const suite_scene *on, size_t shrink, const mft_row *primary, mft_shrink_row *row, base_error *err)
+static base_status measure_shrink(const suite *s, const suite_scene *on, size_t shrink, const mft_row *primary,
+                                  mft_shrink_row *row, base_error *err)
 {
     run_result result = {0};
     run_options options = mft_run_options(s, MFT_S_FRUSTA);
@@ -18,7 +19,10 @@ static base_status measure_shrink(const suite *s, const suite_scene *on, size_t 
     base_status status = run_kernel(on->scene, s->options->machine, &options, &result, err);
     if (status == BASE_OK) {
         const mft_row whole = mft_row_of(&result, on->name, MFT_S_FRUSTA);
-        *row = (mft_shrink_row){.scene = on->name, .shrink = shrink, .frame = whole.value[MFT_CYCLES], .half_width = whole.half_width,
+        *row = (mft_shrink_row){.scene = on->name,
+                                .shrink = shrink,
+                                .frame = whole.value[MFT_CYCLES],
+                                .half_width = whole.half_width,
                                 .additional = (double)result.counts.n[KERNEL_additional_tests],
                                 .additional16 = (double)result.counts.n[KERNEL_additional_tests16]};
         for (int m = 0; m < MFT_METRICS; m++)
@@ -44,8 +48,9 @@ static base_status add_results(suite *s, const measured *m, base_error *err)
 {
     char caption[200];
     const kernel_params *params = &kernel_find(mft_kernel(MFT_S_FRUSTA))->defaults;
-    snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, core model, %u threads; %u samples of the light, back faces culled, at most %u "
-                                      "triangles a leaf.",
+    snprintf(caption, sizeof caption,
+             "%ux%u pixels, machine %s, core model, %u threads; %u samples of the light, back faces culled, at most %u triangles "
+             "a leaf.",
              s->width, s->height, s->options->machine->name, s->options->machine->threads, params->samples, params->max_leaf);
     base_status status = suite_add_table(s, "", mft_table2_counts(m->rows, m->count, caption), err);
     if (status == BASE_OK)
@@ -71,9 +76,10 @@ const suite_info suite_mft_table2 = {
     .name = "mft-table2",
     .summary = "ways to shrink the frusta of shadow rays, core model (Benthin and Wald 2009, Table 2)",
     .title = "MFT Table 2",
-    .about = "Table 2 of Benthin and Wald's 'Efficient Ray Traced Soft Shadows using Multi-Frusta Tracing' (2009): when some rays of a frustum "
-             "are blocked, its corner rays shrink to the rays left (CR), or its intervals of directions as well (FS), or the rays left are tested "
-             "against the boxes of leaves (Ray-AABB); measured here and as published for T-Rex.",
+    .about = "Table 2 of Benthin and Wald's 'Efficient Ray Traced Soft Shadows using Multi-Frusta Tracing' (2009): when some "
+             "rays of a frustum are blocked, its corner rays shrink to the rays left (CR), or its intervals of directions as "
+             "well (FS), or the rays left are tested against the boxes of leaves (Ray-AABB); measured here and as published for "
+             "T-Rex.",
     .scenes = scenes,
     .size = 256,
     .takes = SUITE_TAKES_ERROR,

@@ -50,9 +50,11 @@ report_table *mft_light_size_counts(const mft_light_row *rows, size_t count, con
         add_run(t, &rows[i], &rows[i].packet);
         add_run(t, &rows[i], &rows[i].frusta);
     }
-    report_table_add_note(t, "Counts and cycles are of the whole frame, primary rays among them, as in Table 1 of the paper. Light scale: the light's "
-                             "edges are those of the scene times this, about its centre. Penumbra: pixels for which some of the light's samples are "
-                             "blocked and some are not.");
+    report_table_add_note(
+        t,
+        "Counts and cycles are of the whole frame, primary rays among them, as in Table 1 of the paper. Light scale: the light's "
+        "edges are those of the scene times this, about its centre. Penumbra: pixels for which some of the light's samples are "
+        "blocked and some are not.");
     return t;
 }
 
@@ -98,9 +100,10 @@ report_table *mft_light_size_reductions(const mft_light_row *rows, size_t count,
         report_table_add_real(t, 100 * rows[i].penumbra);
     }
     add_published(t);
-    report_table_add_note(t, "Figure 6 of the paper is a plot without numbers, so it cannot be set beside ours; the published rows are those of Table 1, "
-                             "under lights whose size the paper does not give. Doubtful readings: the copy of the paper at hand is damaged "
-                             "there (reports/papers/mft_table1.csv says why).");
+    report_table_add_note(
+        t, "Figure 6 of the paper is a plot without numbers, so it cannot be set beside ours; the published rows are those of "
+           "Table 1, under lights whose size the paper does not give. Doubtful readings: the copy of the paper at hand is "
+           "damaged there (reports/papers/mft_table1.csv says why).");
     return t;
 }
 
@@ -120,7 +123,8 @@ base_status mft_light_series_create(const mft_light_row *rows, size_t count, siz
 {
     static const mft_metric shown[] = {MFT_CYCLES, MFT_AABB};
     const size_t metrics = sizeof shown / sizeof *shown, most = metrics * (count / scales) + 1;
-    *out = (mft_light_series){.series = calloc(most, sizeof *out->series), .numbers = calloc(2 * scales * most, sizeof *out->numbers),
+    *out = (mft_light_series){.series = calloc(most, sizeof *out->series),
+                              .numbers = calloc(2 * scales * most, sizeof *out->numbers),
                               .names = calloc(most, sizeof *out->names)};
     if (!out->series || !out->numbers || !out->names)
         return base_fail(err, BASE_ERR_NOMEM, "plot", "out of memory");

@@ -95,12 +95,13 @@ report_table *mft_quality_errors(const mft_quality_row *rows, size_t count, cons
         report_table_add_real(t, rows[i].cycles_per_pixel);
         add_errors(t, rows[i].error);
     }
-    report_table_add_note(t, "Visibility is the fraction of the light that a pixel's hit sees, 0 to 1. Its errors are against 4096 samples, which see a "
-                             "part of the light inside penumbrae, and all of it or nothing outside. RMSE: root of the mean square; bias: mean, above 0 "
-                             "is too bright; worst: the largest size. Pixels that hit nothing do not count. 256 samples are all sets, which "
-                             "leaves nothing to interleave.");
-    report_table_add_note(t, "Cycles are those of the whole frame with multi-frusta tracing, without the filter, which works on the picture that has been traced and is "
-                             "charged to no machine.");
+    report_table_add_note(
+        t, "Visibility is the fraction of the light that a pixel's hit sees, 0 to 1. Its errors are against 4096 samples, which "
+           "see a part of the light inside penumbrae, and all of it or nothing outside. RMSE: root of the mean square; bias: "
+           "mean, above 0 is too bright; worst: the largest size. Pixels that hit nothing do not count. 256 samples are all "
+           "sets, which leaves nothing to interleave.");
+    report_table_add_note(t, "Cycles are those of the whole frame with multi-frusta tracing, without the filter, which works on "
+                             "the picture that has been traced and is charged to no machine.");
     return t;
 }
 
@@ -125,11 +126,13 @@ report_table *mft_quality_figure5(const mft_figure5_row *rows, size_t count, con
         report_table_add_real(t, 100 * rows[i].rays);
         add_errors(t, rows[i].error);
     }
-    snprintf(words, sizeof words, "Figure 5 of the paper sets pictures side by side: 16 interleaved samples and the filter, with %.2f %% of the rays "
-                                  "(inferred: the copy of the paper at hand is damaged there), look like 256 samples at 1024x1024. Here errors are "
-                                  "against 256 samples, not filtered, and the penumbrae are theirs. The filter's window is 4x4 pixels, so it blurs less "
-                                  "of the scene the larger the picture is.",
-             report_paper_find("mft_text", "T-Rex", "interleaved 4x4 + filter", "shadow_rays_relative_to_256"));
+    snprintf(
+        words, sizeof words,
+        "Figure 5 of the paper sets pictures side by side: 16 interleaved samples and the filter, with %.2f %% of the rays "
+        "(inferred: the copy of the paper at hand is damaged there), look like 256 samples at 1024x1024. Here errors are against "
+        "256 samples, not filtered, and the penumbrae are theirs. The filter's window is 4x4 pixels, so it blurs less of the "
+        "scene the larger the picture is.",
+        report_paper_find("mft_text", "T-Rex", "interleaved 4x4 + filter", "shadow_rays_relative_to_256"));
     report_table_add_note(t, words);
     return t;
 }
@@ -143,7 +146,8 @@ void mft_quality_points_of(const mft_quality_row *rows, mft_quality_points *out)
             out->x[way][i] = row->cycles_per_pixel;
             out->y[way][i] = row->error[MFT_INSIDE].rmse;
         }
-        out->series[way] = (report_series){way_names[way], out->x[way], out->y[way], labels, MFT_QUALITY_SAMPLES, REPORT_LINE_POINTS};
+        out->series[way] = (report_series){.name = way_names[way], .x = out->x[way], .y = out->y[way], .labels = labels,
+                                           .count = MFT_QUALITY_SAMPLES, .line = REPORT_LINE_POINTS};
     }
     snprintf(out->title, sizeof out->title, "%.100s: error of soft shadows against cycles", rows->scene);
 }

@@ -84,7 +84,8 @@ typedef void measured_fn(report_table *t, const mft_shrink_row *row);
 typedef void published_fn(report_table *t, size_t shrink);
 
 /* Variants from number `first` on, each with the published one below it if the scene stands in for the paper's. */
-static void add_rows(report_table *t, const mft_shrink_row *rows, size_t count, size_t first, measured_fn *measured, published_fn *published)
+static void add_rows(report_table *t, const mft_shrink_row *rows, size_t count, size_t first, measured_fn *measured,
+                     published_fn *published)
 {
     bool beside = false;
     for (size_t i = 0; i < count; i++) {
@@ -117,12 +118,16 @@ report_table *mft_table2_counts(const mft_shrink_row *rows, size_t count, const 
     add_number(t, "95% interval", "+-%", 2);
     report_table_add_column(t, &(report_column){.name = "doubtful readings"});
     add_rows(t, rows, count, 0, add_measured, add_published);
-    report_table_add_note(t, "Measured: what the frame with soft shadows has more than the frame with its primary rays alone (mft-primary); "
-                             "so the cycles hold the shading as well. Additional tests: frusta whose corner rays, or corner rays and intervals, were formed "
-                             "anew. 16-lane additional tests: computations that served them, one a leaf. AABB tests of Ray-AABB hold its tests of rays "
-                             "against the boxes of leaves.");
-    report_table_add_note(t, "Published counts are of T-Rex at 1024x1024 pixels and rounded to thousands; Table 2 has no cycles. Doubtful readings: "
-                             "the count and the change that the copy of the paper at hand prints do not agree (reports/papers/mft_table2.csv says why).");
+    report_table_add_note(
+        t, "Measured: what the frame with soft shadows has more than the frame with its primary rays alone (mft-primary); so the "
+           "cycles hold the shading as well. Additional tests: frusta whose corner rays, or corner rays and intervals, were "
+           "formed anew. 16-lane additional tests: computations that served them, one a leaf. AABB tests of Ray-AABB hold its "
+           "tests of rays against the boxes of leaves.");
+    report_table_add_note(
+        t,
+        "Published counts are of T-Rex at 1024x1024 pixels and rounded to thousands; Table 2 has no cycles. Doubtful readings: "
+        "the count and the change that the copy of the paper at hand prints do not agree (reports/papers/mft_table2.csv says "
+        "why).");
     return t;
 }
 
@@ -137,8 +142,11 @@ report_table *mft_table2_changes(const mft_shrink_row *rows, size_t count, const
     add_number(t, "cycles of the frame", "%", 1);
     report_table_add_column(t, &(report_column){.name = "doubtful readings"});
     add_rows(t, rows, count, 1, add_measured_change, add_published_change);
-    snprintf(words, sizeof words, "Published changes are as printed. Of cycles the paper says only that CR makes T-Rex at most %.0f %% faster as a whole "
-                                  "(5.3).", report_paper_find("mft_text", "T-Rex", "CR", "overall_speedup_at_most"));
+    snprintf(
+        words, sizeof words,
+        "Published changes are as printed. Of cycles the paper says only that CR makes T-Rex at most %.0f %% faster as a whole "
+        "(5.3).",
+        report_paper_find("mft_text", "T-Rex", "CR", "overall_speedup_at_most"));
     report_table_add_note(t, words);
     return t;
 }
@@ -152,7 +160,8 @@ static double saved_by_test(const double value[MFT_METRICS], const double none[M
 static void add_difference(report_table *t, const mft_shrink_row *row, mft_metric metric)
 {
     char words[400];
-    const double mine = change(row->value[metric], unshrunk(row)->value[metric]), theirs = mft_paper_shrink_change(row->shrink, metric);
+    const double mine = change(row->value[metric], unshrunk(row)->value[metric]),
+                 theirs = mft_paper_shrink_change(row->shrink, metric);
     const mft_paper_row paper = mft_paper_shrink_row(0);
     const double mine_shrunk = row->additional / unshrunk(row)->value[MFT_ISECT];
     const double their_shrunk = mft_paper_additional_tests(row->shrink) / paper.value[MFT_ISECT];
@@ -165,12 +174,15 @@ static void add_difference(report_table *t, const mft_shrink_row *row, mft_metri
     report_table_add_real(t, mine);
     report_table_add_real(t, theirs);
     if (isfinite(their_shrunk))
-        snprintf(words, sizeof words, "a frustum shrinks %.3f times for each intersection test without shrinking, in the paper %.3f; a triangle after "
-                                      "culling meets %.1f frusta, in the paper %.1f", mine_shrunk, their_shrunk,
-                 unshrunk(row)->value[MFT_ISECT] / unshrunk(row)->value[MFT_CULLED], paper.value[MFT_ISECT] / paper.value[MFT_CULLED]);
+        snprintf(words, sizeof words,
+                 "a frustum shrinks %.3f times for each intersection test without shrinking, in the paper %.3f; a triangle after "
+                 "culling meets %.1f frusta, in the paper %.1f",
+                 mine_shrunk, their_shrunk, unshrunk(row)->value[MFT_ISECT] / unshrunk(row)->value[MFT_CULLED],
+                 paper.value[MFT_ISECT] / paper.value[MFT_CULLED]);
     else
         snprintf(words, sizeof words, "a test of rays against the box of a leaf saves %.2f intersection tests, in the paper %.2f",
-                 saved_by_test(row->value, unshrunk(row)->value), saved_by_test(mft_paper_shrink_row(row->shrink).value, paper.value));
+                 saved_by_test(row->value, unshrunk(row)->value),
+                 saved_by_test(mft_paper_shrink_row(row->shrink).value, paper.value));
     report_table_add_text(t, words);
 }
 
