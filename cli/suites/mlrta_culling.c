@@ -130,7 +130,7 @@ const suite_info suite_mlrta_culling = {
     .title = "MLRTA: ways to cull",
     .about = "How entry-point searches of multi-level ray tracing may cull cells: by the inverse method of Reshetov, Soupikov and Hurley "
              "(2005), by the planes of the tile's frustum, and by its corner rays alone, which the paper's Figure 2 shows to be unsound.",
-    .scenes = mlrta_suite_scenes,
+    .scenes = mlrta_small_scenes,
     .size = 1024,
     .measure = measure,
 };

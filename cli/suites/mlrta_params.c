@@ -155,7 +155,7 @@ const suite_info suite_mlrta_params = {
     .title = "MLRTA: parameters",
     .about = "Initial tile size, split factor and minimal tile size of multi-level ray tracing (Reshetov, Soupikov and Hurley 2005, 4.2), "
              "what its searches and packets may do, and the rules by which its kd-tree is built (3.1), each changed by itself.",
-    .scenes = mlrta_suite_scenes,
+    .scenes = mlrta_small_scenes,
     .size = 1024,
     .measure = measure,
 };

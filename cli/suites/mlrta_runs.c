@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-const char *const mlrta_suite_scenes[] = {"builtin:rooms-804", "builtin:conference-282k", NULL};
+const char *const mlrta_suite_scenes[] = {"builtin:rooms-804", "builtin:conference-282k", "builtin:tower-2195k", "builtin:dragon-7m", NULL};
+const char *const mlrta_small_scenes[] = {"builtin:rooms-804", "builtin:conference-282k", NULL};
 const char *const mlrta_primary_kernels[MLRTA_ALGORITHMS] = {"kd16-primary", "mlrta-primary"};
 const char *const mlrta_shadow_kernels[MLRTA_ALGORITHMS] = {"kd16-shadow", "mlrta-shadow"};
 

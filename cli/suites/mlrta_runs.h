@@ -5,8 +5,8 @@
 #include "cli/suite.h"
 #include "reports/views/mlrta_counts.h"
 
-/** The built-in scenes that stand in for the paper's and whose tree takes seconds, for suite_info.scenes. */
-extern const char *const mlrta_suite_scenes[];
+/** The built-in scenes that stand in for the paper's, for suite_info.scenes: all, and those whose trees are built in seconds. */
+extern const char *const mlrta_suite_scenes[], *const mlrta_small_scenes[];
 
 /** Kernels for primary rays, and for shadow rays besides: by algorithm. */
 extern const char *const mlrta_primary_kernels[MLRTA_ALGORITHMS], *const mlrta_shadow_kernels[MLRTA_ALGORITHMS];
