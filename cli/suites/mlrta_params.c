@@ -28,7 +28,7 @@ static const setting settings[] = {
     {split_kind, "sf=4 mts=32"},
     {split_kind, "sf=4 mts=64"},
     {"search", "ends=0"},
-    {"search", "empty_occluders=0"},
+    {"search", "empty_occluders=1"},
     {"packets", "divergent=xp"},
     {"packets", "divergent_packets=rays"},
     {"packets", "mailbox=0"},

@@ -69,7 +69,7 @@ static void shapes__all__named_once_and_used(void **state)
     for (int i = 0; i < LRB_SHAPE_COUNT; i++) {
         int used = 0;
         assert_non_null(lrb_shape_table[i].name);
-        assert_int_equal(strspn(lrb_shape_table[i].reads, "peab"), 4);
+        assert_int_equal(strspn(lrb_shape_table[i].reads, "peabm"), 4);
         assert_int_equal(strlen(lrb_shape_table[i].reads), 4);
         for (int j = 0; j < i; j++)
             assert_string_not_equal(lrb_shape_table[i].name, lrb_shape_table[j].name);
