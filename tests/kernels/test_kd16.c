@@ -223,7 +223,7 @@ static int blocked(const scene *s, const double light[3], const double d[3])
 {
     int answer = 0;
     for (size_t i = 0; i < s->triangle_count; i++) {
-        double a[3][3], volume[3], sum = 0, n[3], na = 0, least = INFINITY, most = -INFINITY, size = 0;
+        double a[3][3], volume[3], sum = 0, n[3], na = 0, least = HUGE_VAL, most = -HUGE_VAL, size = 0;
         for (int v = 0; v < 3; v++)
             for (int k = 0; k < 3; k++)
                 a[v][k] = (double)s->triangles[i].v[v][k] - light[k];
