@@ -24,3 +24,11 @@ double report_paper_find(const char *table, const char *scene, const char *algor
     const report_paper_value *v = report_paper_entry(table, scene, algorithm, metric);
     return v ? v->value * scale_of(v->unit) : (double)NAN;
 }
+
+size_t report_paper_scene_of(const report_paper_scene *scenes, size_t count, const char *builtin)
+{
+    size_t i = 0;
+    while (i < count && strcmp(scenes[i].builtin, builtin) != 0)
+        i++;
+    return i;
+}

@@ -27,6 +27,15 @@ const report_paper_value *report_paper_entry(const char *table, const char *scen
 /** One value, in units of one (thousands and millions multiplied out); NaN if there is none, or it is lost. */
 double report_paper_find(const char *table, const char *scene, const char *algorithm, const char *metric);
 
+/* A scene of a paper, and the built-in scene that stands in for it. */
+typedef struct report_paper_scene {
+    const char *name; /* in the paper's table */
+    const char *builtin;
+} report_paper_scene;
+
+/** Number of the scene that the named built-in one stands in for, or `count`. */
+size_t report_paper_scene_of(const report_paper_scene *scenes, size_t count, const char *builtin);
+
 #ifdef __cplusplus
 }
 #endif

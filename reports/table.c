@@ -105,6 +105,11 @@ void report_table_add_column(report_table *t, const report_column *column)
     };
 }
 
+void report_table_add_real_column(report_table *t, const char *name, const char *unit, int decimals)
+{
+    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
+}
+
 void report_table_begin_group(report_table *t, const char *label)
 {
     if (!t)

@@ -66,6 +66,9 @@ void report_table_add_note(report_table *table, const char *note);
 /** Add a column; all columns come before the first row. Asserts 0 <= decimals <= 17. */
 void report_table_add_column(report_table *table, const report_column *column);
 
+/** Add a column of reals; unit NULL: none. */
+void report_table_add_real_column(report_table *table, const char *name, const char *unit, int decimals);
+
 /**
  * Start a new group: a rule, or a line with the label, stands before the next row in text and HTML. If any group has
  * a label, CSV and JSON get a first column `group` that holds it.

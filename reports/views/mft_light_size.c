@@ -5,11 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void add_number(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void begin_scene(report_table *t, const mft_light_row *rows, size_t i)
 {
     if (!i || strcmp(rows[i - 1].packet.scene, rows[i].packet.scene) != 0)
@@ -36,15 +31,15 @@ report_table *mft_light_size_counts(const mft_light_row *rows, size_t count, con
     report_table *t = report_table_create("Soft shadows by the size of the light");
     report_table_set_caption(t, caption);
     report_table_add_column(t, &(report_column){.name = "scene"});
-    add_number(t, "light scale", NULL, 3);
+    report_table_add_real_column(t, "light scale", NULL, 3);
     report_table_add_column(t, &(report_column){.name = "algorithm"});
     for (int m = 0; m < MFT_METRICS; m++)
-        add_number(t, mft_metric_names[m], NULL, 0);
-    add_number(t, "cycles per pixel", NULL, 1);
-    add_number(t, "memory", "% of cycles", 1);
-    add_number(t, "shadow rays", NULL, 0);
-    add_number(t, "penumbra", "% of pixels", 1);
-    add_number(t, "95% interval", "+-%", 2);
+        report_table_add_real_column(t, mft_metric_names[m], NULL, 0);
+    report_table_add_real_column(t, "cycles per pixel", NULL, 1);
+    report_table_add_real_column(t, "memory", "% of cycles", 1);
+    report_table_add_real_column(t, "shadow rays", NULL, 0);
+    report_table_add_real_column(t, "penumbra", "% of pixels", 1);
+    report_table_add_real_column(t, "95% interval", "+-%", 2);
     for (size_t i = 0; i < count; i++) {
         begin_scene(t, rows, i);
         add_run(t, &rows[i], &rows[i].packet);
@@ -86,10 +81,10 @@ report_table *mft_light_size_reductions(const mft_light_row *rows, size_t count,
     report_table *t = report_table_create("Packets / frusta by the size of the light");
     report_table_set_caption(t, caption);
     report_table_add_column(t, &(report_column){.name = "scene"});
-    add_number(t, "light scale", NULL, 3);
+    report_table_add_real_column(t, "light scale", NULL, 3);
     for (int m = 0; m < MFT_METRICS; m++)
-        add_number(t, mft_metric_names[m], NULL, 2);
-    add_number(t, "penumbra", "% of pixels", 1);
+        report_table_add_real_column(t, mft_metric_names[m], NULL, 2);
+    report_table_add_real_column(t, "penumbra", "% of pixels", 1);
     report_table_add_column(t, &(report_column){.name = "doubtful readings"});
     for (size_t i = 0; i < count; i++) {
         begin_scene(t, rows, i);

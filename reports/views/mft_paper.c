@@ -3,13 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reports/paper.h"
-
 static const char table[] = "mft_table1", table2[] = "mft_table2";
 
 const char *const mft_metric_names[MFT_METRICS] = {"triangle accesses", "after culling", "AABB tests", "intersection tests", "cycles"};
 const char *const mft_algorithm_names[MFT_ALGORITHMS] = {"P-Packet", "P-Frusta", "S-Packet", "S-Frusta"};
-const mft_scene mft_scenes[MFT_SCENES] = {
+const report_paper_scene mft_scenes[MFT_SCENES] = {
     {"T-Rex (69K tri)", "creature-69k"},
     {"Fern (212K tri)", "fern-212k"},
     {"Call of Juarez Saloon (60K tri)", "hall-60k"},
@@ -21,13 +19,7 @@ const double mft_paper_pixels = 1024.0 * 1024.0;
 /* The metrics' names in the file. */
 static const char *const keys[MFT_METRICS] = {"tris_accessed", "tris_after_culling", "aabb_tests", "isec_tests_16wide", "cycles"};
 
-size_t mft_scene_of(const char *builtin)
-{
-    size_t i = 0;
-    while (i < MFT_SCENES && strcmp(mft_scenes[i].builtin, builtin) != 0)
-        i++;
-    return i;
-}
+size_t mft_scene_of(const char *builtin) { return report_paper_scene_of(mft_scenes, MFT_SCENES, builtin); }
 
 static void add_doubt(mft_paper_row *row, const char *status, mft_metric metric, const char **last)
 {

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "reports/paper.h"
 #include "reports/table.h"
 
 typedef enum mft_metric { MFT_TRIS, MFT_CULLED, MFT_AABB, MFT_ISECT, MFT_CYCLES, MFT_METRICS } mft_metric;
@@ -19,12 +20,7 @@ extern const char *const mft_algorithm_names[MFT_ALGORITHMS];
 
 enum { MFT_SCENES = 4, MFT_DOUBT_BYTES = 120 };
 
-typedef struct mft_scene {
-    const char *name;   /* in the paper */
-    const char *builtin; /* the built-in scene that stands in for it */
-} mft_scene;
-
-extern const mft_scene mft_scenes[MFT_SCENES];
+extern const report_paper_scene mft_scenes[MFT_SCENES];
 
 /** Number of the scene that the named one stands in for, or MFT_SCENES. */
 size_t mft_scene_of(const char *builtin);

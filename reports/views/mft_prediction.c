@@ -118,11 +118,6 @@ static reading best_of(const mft_measured *m)
 
 static void add_text_column(report_table *t, const char *name) { report_table_add_column(t, &(report_column){.name = name}); }
 
-static void add_number_column(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void add_sizes(report_table *t, error_sizes e)
 {
     report_table_add_real(t, e.median);
@@ -156,12 +151,12 @@ report_table *mft_prediction_summary(const mft_measured *m, const char *caption)
     report_table_set_caption(t, caption);
     add_text_column(t, "machine");
     add_text_column(t, "an AABB test is");
-    add_number_column(t, "packets, median", "%", 1);
-    add_number_column(t, "packets, worst", "%", 1);
-    add_number_column(t, "frusta, median", "%", 1);
-    add_number_column(t, "frusta, worst", "%", 1);
-    add_number_column(t, "all, median", "%", 1);
-    add_number_column(t, "all, worst", "%", 1);
+    report_table_add_real_column(t, "packets, median", "%", 1);
+    report_table_add_real_column(t, "packets, worst", "%", 1);
+    report_table_add_real_column(t, "frusta, median", "%", 1);
+    report_table_add_real_column(t, "frusta, worst", "%", 1);
+    report_table_add_real_column(t, "all, median", "%", 1);
+    report_table_add_real_column(t, "all, worst", "%", 1);
     for (size_t i = 0; i < m->machine_count * BOX_READINGS; i++) {
         const reading r = reading_at(i);
         const size_t count = predict_all(m, r, rows);
@@ -214,9 +209,9 @@ report_table *mft_prediction_costs(const mft_measured *m, const char *caption)
     add_text_column(t, "machine");
     add_text_column(t, "algorithm");
     add_text_column(t, "event");
-    add_number_column(t, "cycles", NULL, 2);
-    add_number_column(t, "least scene", NULL, 2);
-    add_number_column(t, "dearest scene", NULL, 2);
+    report_table_add_real_column(t, "cycles", NULL, 2);
+    report_table_add_real_column(t, "least scene", NULL, 2);
+    report_table_add_real_column(t, "dearest scene", NULL, 2);
     for (size_t machine = 0; machine < m->machine_count; machine++)
         for (size_t a = 0; a < m->algorithms; a++) {
             report_table_begin_group(t, NULL);
@@ -237,11 +232,11 @@ report_table *mft_prediction_rows(const mft_measured *m, const char *caption)
     report_table_set_caption(t, caption);
     add_text_column(t, "scene");
     add_text_column(t, "algorithm");
-    add_number_column(t, "published", NULL, 0);
-    add_number_column(t, "predicted", NULL, 0);
-    add_number_column(t, "error", "%", 1);
+    report_table_add_real_column(t, "published", NULL, 0);
+    report_table_add_real_column(t, "predicted", NULL, 0);
+    report_table_add_real_column(t, "error", "%", 1);
     for (int e = 0; e < MFT_EVENTS; e++)
-        add_number_column(t, parts[e], "% of predicted", 1);
+        report_table_add_real_column(t, parts[e], "% of predicted", 1);
     add_text_column(t, "doubtful readings");
     for (size_t i = 0; i < m->machine_count * BOX_READINGS; i++) {
         prediction rows[ROWS];

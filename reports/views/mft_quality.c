@@ -31,11 +31,6 @@ void mft_errors_of(const float *seen, const float *reference, const unsigned cha
     }
 }
 
-static void add_number(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void add_error_columns(report_table *t)
 {
     static const char *const measures[] = {"RMSE", "bias", "worst"};
@@ -43,7 +38,7 @@ static void add_error_columns(report_table *t)
     for (int region = 0; region < MFT_REGIONS; region++)
         for (int m = 0; m < 3; m++) {
             snprintf(name, sizeof name, "%s, %s", region_names[region], measures[m]);
-            add_number(t, name, NULL, 4);
+            report_table_add_real_column(t, name, NULL, 4);
         }
     for (int region = 0; region < MFT_REGIONS; region++)
         report_table_add_column(t, &(report_column){.name = region_names[region], .unit = "pixels", .kind = REPORT_INTEGER});
@@ -79,9 +74,9 @@ report_table *mft_quality_errors(const mft_quality_row *rows, size_t count, cons
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "samples", .kind = REPORT_INTEGER});
     add_way_columns(t);
-    add_number(t, "shadow rays", NULL, 0);
-    add_number(t, "cycles", NULL, 0);
-    add_number(t, "cycles per pixel", NULL, 1);
+    report_table_add_real_column(t, "shadow rays", NULL, 0);
+    report_table_add_real_column(t, "cycles", NULL, 0);
+    report_table_add_real_column(t, "cycles per pixel", NULL, 1);
     add_error_columns(t);
     for (size_t i = 0; i < count; i++) {
         if (i % MFT_QUALITY_WAYS == 0)
@@ -113,7 +108,7 @@ report_table *mft_quality_figure5(const mft_figure5_row *rows, size_t count, con
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "picture", .align = REPORT_ALIGN_RIGHT});
     add_way_columns(t);
-    add_number(t, "shadow rays", "% of those of 256", 2);
+    report_table_add_real_column(t, "shadow rays", "% of those of 256", 2);
     add_error_columns(t);
     for (size_t i = 0; i < count; i++) {
         if (!i || rows[i].width != rows[i - 1].width)

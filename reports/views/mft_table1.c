@@ -7,11 +7,6 @@
 
 static const double large = 1.25; /* a reduction that differs by more than this factor is put into words */
 
-static void add_number(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void begin(report_table *t, const char *scene, const char *algorithm, const char *basis)
 {
     report_table_begin_row(t);
@@ -73,10 +68,10 @@ report_table *mft_table1_counts(const mft_row *rows, size_t count, const char *c
     report_table_add_column(t, &(report_column){.name = "algorithm"});
     report_table_add_column(t, &(report_column){.name = "basis"});
     for (int m = 0; m < MFT_METRICS; m++)
-        add_number(t, mft_metric_names[m], NULL, 0);
-    add_number(t, "cycles per pixel", NULL, 1);
-    add_number(t, "memory", "% of cycles", 1);
-    add_number(t, "95% interval", "+-%", 2);
+        report_table_add_real_column(t, mft_metric_names[m], NULL, 0);
+    report_table_add_real_column(t, "cycles per pixel", NULL, 1);
+    report_table_add_real_column(t, "memory", "% of cycles", 1);
+    report_table_add_real_column(t, "95% interval", "+-%", 2);
     report_table_add_column(t, &(report_column){.name = "doubtful readings"});
     for (size_t i = 0; i < count; i++) {
         const size_t scene = mft_scene_of(rows[i].scene);
@@ -126,7 +121,7 @@ report_table *mft_table1_reductions(const mft_row *rows, size_t count, const cha
     report_table_add_column(t, &(report_column){.name = "rays"});
     report_table_add_column(t, &(report_column){.name = "basis"});
     for (int m = 0; m < MFT_METRICS; m++)
-        add_number(t, mft_metric_names[m], NULL, 2);
+        report_table_add_real_column(t, mft_metric_names[m], NULL, 2);
     report_table_add_column(t, &(report_column){.name = "doubtful readings"});
     for (size_t i = 0; i + 1 < count; i += 2) {
         const size_t scene = mft_scene_of(rows[i].scene);
@@ -196,10 +191,10 @@ report_table *mft_table1_differences(const mft_row *rows, size_t count)
     report_table_set_caption(t, caption);
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "rays"});
-    add_number(t, "AABB tests, measured", NULL, 2);
-    add_number(t, "AABB tests, published", NULL, 2);
-    add_number(t, "cycles, measured", NULL, 2);
-    add_number(t, "cycles, published", NULL, 2);
+    report_table_add_real_column(t, "AABB tests, measured", NULL, 2);
+    report_table_add_real_column(t, "AABB tests, published", NULL, 2);
+    report_table_add_real_column(t, "cycles, measured", NULL, 2);
+    report_table_add_real_column(t, "cycles, published", NULL, 2);
     report_table_add_column(t, &(report_column){.name = "in words"});
     for (size_t i = 0; i + 1 < count; i += 2)
         if (mft_scene_of(rows[i].scene) < MFT_SCENES)

@@ -8,11 +8,6 @@
 
 static const double large = 10; /* a change that differs by more percentage points is put into words */
 
-static void add_number(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void add_texts(report_table *t)
 {
     report_table_add_column(t, &(report_column){.name = "scene"});
@@ -111,11 +106,11 @@ report_table *mft_table2_counts(const mft_shrink_row *rows, size_t count, const 
     report_table_set_caption(t, caption);
     add_texts(t);
     for (int m = 0; m < MFT_METRICS; m++)
-        add_number(t, mft_metric_names[m], NULL, 0);
-    add_number(t, "additional tests", NULL, 0);
-    add_number(t, "16-lane additional tests", NULL, 0);
-    add_number(t, "cycles of the frame", NULL, 0);
-    add_number(t, "95% interval", "+-%", 2);
+        report_table_add_real_column(t, mft_metric_names[m], NULL, 0);
+    report_table_add_real_column(t, "additional tests", NULL, 0);
+    report_table_add_real_column(t, "16-lane additional tests", NULL, 0);
+    report_table_add_real_column(t, "cycles of the frame", NULL, 0);
+    report_table_add_real_column(t, "95% interval", "+-%", 2);
     report_table_add_column(t, &(report_column){.name = "doubtful readings"});
     add_rows(t, rows, count, 0, add_measured, add_published);
     report_table_add_note(
@@ -138,8 +133,8 @@ report_table *mft_table2_changes(const mft_shrink_row *rows, size_t count, const
     report_table_set_caption(t, caption);
     add_texts(t);
     for (int m = 0; m < MFT_METRICS; m++)
-        add_number(t, mft_metric_names[m], "%", 1);
-    add_number(t, "cycles of the frame", "%", 1);
+        report_table_add_real_column(t, mft_metric_names[m], "%", 1);
+    report_table_add_real_column(t, "cycles of the frame", "%", 1);
     report_table_add_column(t, &(report_column){.name = "doubtful readings"});
     add_rows(t, rows, count, 1, add_measured_change, add_published_change);
     snprintf(
@@ -193,8 +188,8 @@ report_table *mft_table2_differences(const mft_shrink_row *rows, size_t count)
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "variant"});
     report_table_add_column(t, &(report_column){.name = "event"});
-    add_number(t, "measured", "%", 1);
-    add_number(t, "published", "%", 1);
+    report_table_add_real_column(t, "measured", "%", 1);
+    report_table_add_real_column(t, "published", "%", 1);
     report_table_add_column(t, &(report_column){.name = "in words"});
     for (size_t i = 0; i < count; i++)
         for (int m = 0; m < MFT_CYCLES && rows[i].shrink > 0 && mft_scene_of(rows[i].scene) == 0; m++)

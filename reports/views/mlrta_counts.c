@@ -38,11 +38,6 @@ static double measured(const mlrta_row *row, const reading *r, mlrta_algorithm a
     return (field_of(c, r->field) + (r->sum ? field_of(c, r->and_field) : 0)) / row->packets;
 }
 
-static void add_number(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void begin(report_table *t, const char *scene, const reading *r, const char *name)
 {
     report_table_begin_row(t);
@@ -113,12 +108,12 @@ report_table *mlrta_counts_table(unsigned number, const mlrta_row *rows, size_t 
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "count"});
     report_table_add_column(t, &(report_column){.name = "reading"});
-    add_number(t, "no MLRT", "per packet", 2);
-    add_number(t, "no MLRT, published", "per packet", 2);
-    add_number(t, "MLRT", "per packet", 2);
-    add_number(t, "MLRT, published", "per packet", 2);
-    add_number(t, "reduction", NULL, 2);
-    add_number(t, "reduction, published", NULL, 2);
+    report_table_add_real_column(t, "no MLRT", "per packet", 2);
+    report_table_add_real_column(t, "no MLRT, published", "per packet", 2);
+    report_table_add_real_column(t, "MLRT", "per packet", 2);
+    report_table_add_real_column(t, "MLRT, published", "per packet", 2);
+    report_table_add_real_column(t, "reduction", NULL, 2);
+    report_table_add_real_column(t, "reduction, published", NULL, 2);
     for (size_t i = 0; i < count; i++)
         add_scene(t, number, &rows[i]);
     for (size_t scene = 0; scene < MLRTA_SCENES; scene++)
@@ -152,15 +147,15 @@ report_table *mlrta_counts_units(const mlrta_row *rows, size_t count, const char
     report_table_set_caption(t, caption);
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "algorithm"});
-    add_number(t, "packets of the picture", NULL, 0);
-    add_number(t, "divergent packets", "%", 2);
-    add_number(t, "tiles searched", NULL, 0);
-    add_number(t, "tiles that hit nothing", NULL, 0);
-    add_number(t, "divergent tiles", NULL, 0);
-    add_number(t, "triangles tried as ends", NULL, 0);
-    add_number(t, "searches ended", NULL, 0);
-    add_number(t, "EP share, inner", "%", 1);
-    add_number(t, "EP share, with leaves", "%", 1);
+    report_table_add_real_column(t, "packets of the picture", NULL, 0);
+    report_table_add_real_column(t, "divergent packets", "%", 2);
+    report_table_add_real_column(t, "tiles searched", NULL, 0);
+    report_table_add_real_column(t, "tiles that hit nothing", NULL, 0);
+    report_table_add_real_column(t, "divergent tiles", NULL, 0);
+    report_table_add_real_column(t, "triangles tried as ends", NULL, 0);
+    report_table_add_real_column(t, "searches ended", NULL, 0);
+    report_table_add_real_column(t, "EP share, inner", "%", 1);
+    report_table_add_real_column(t, "EP share, with leaves", "%", 1);
     for (size_t i = 0; i < count; i++)
         for (int a = 0; a < MLRTA_ALGORITHMS; a++)
             add_units(t, &rows[i], (mlrta_algorithm)a);

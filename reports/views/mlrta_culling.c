@@ -4,11 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static void add_number(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void add_row(report_table *t, const mlrta_culling_row *row, const mlrta_culling_row *inverse)
 {
     const mlrta_counts *c = &row->counts, *base = &inverse->counts;
@@ -38,11 +33,11 @@ report_table *mlrta_culling_table(const mlrta_culling_row *rows, size_t count, c
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "tiles"});
     report_table_add_column(t, &(report_column){.name = "culling"});
-    add_number(t, "EP steps", "per packet", 3);
-    add_number(t, "EP steps, against inverse", "%", 1);
-    add_number(t, "traversed cells", "per packet", 2);
-    add_number(t, "cells, against inverse", "%", 1);
-    add_number(t, "intersection tests", "per packet", 2);
+    report_table_add_real_column(t, "EP steps", "per packet", 3);
+    report_table_add_real_column(t, "EP steps, against inverse", "%", 1);
+    report_table_add_real_column(t, "traversed cells", "per packet", 2);
+    report_table_add_real_column(t, "cells, against inverse", "%", 1);
+    report_table_add_real_column(t, "intersection tests", "per packet", 2);
     report_table_add_column(t, &(report_column){.name = "hits", .kind = REPORT_INTEGER});
     report_table_add_column(t, &(report_column){.name = "lost hits", .kind = REPORT_INTEGER});
     const mlrta_culling_row *inverse = rows;

@@ -3,9 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reports/paper.h"
-
-const mlrta_scene mlrta_scenes[MLRTA_SCENES] = {
+const report_paper_scene mlrta_scenes[MLRTA_SCENES] = {
     {"Erw6 (804 tri)", "rooms-804"},
     {"Conference (274K tri)", "conference-282k"},
     {"Soda Hall (2195K tri)", "tower-2195k"},
@@ -13,13 +11,7 @@ const mlrta_scene mlrta_scenes[MLRTA_SCENES] = {
 };
 const double mlrta_paper_pixels = 1024.0 * 1024.0;
 
-size_t mlrta_scene_of(const char *builtin)
-{
-    size_t i = 0;
-    while (i < MLRTA_SCENES && strcmp(mlrta_scenes[i].builtin, builtin) != 0)
-        i++;
-    return i;
-}
+size_t mlrta_scene_of(const char *builtin) { return report_paper_scene_of(mlrta_scenes, MLRTA_SCENES, builtin); }
 
 double mlrta_paper_count(unsigned table, size_t scene, mlrta_algorithm algorithm, const char *metric)
 {

@@ -4,14 +4,11 @@
 
 #include <stddef.h>
 
+#include "reports/paper.h"
+
 enum { MLRTA_SCENES = 4 };
 
-typedef struct mlrta_scene {
-    const char *name;    /* in the paper */
-    const char *builtin; /* the built-in scene that stands in for it */
-} mlrta_scene;
-
-extern const mlrta_scene mlrta_scenes[MLRTA_SCENES];
+extern const report_paper_scene mlrta_scenes[MLRTA_SCENES];
 
 /** Number of the scene that the named one stands in for, or MLRTA_SCENES. */
 size_t mlrta_scene_of(const char *builtin);

@@ -4,11 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void add_number(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void add_row(report_table *t, const mlrta_params_row *row, const mlrta_params_row *defaults)
 {
     const mlrta_counts *without = &row->counted.counts[MLRTA_WITHOUT], *with = &row->counted.counts[MLRTA_WITH];
@@ -37,15 +32,15 @@ report_table *mlrta_params_table(const mlrta_params_row *rows, size_t count, con
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "varied"});
     report_table_add_column(t, &(report_column){.name = "setting"});
-    add_number(t, "tree nodes", NULL, 0);
-    add_number(t, "cells, no MLRT", "per packet", 2);
-    add_number(t, "no MLRT, against defaults", "%", 1);
-    add_number(t, "cells, MLRT", "per packet", 2);
-    add_number(t, "MLRT, against defaults", "%", 1);
-    add_number(t, "reduction", NULL, 2);
-    add_number(t, "EP share", "%", 1);
-    add_number(t, "tests, MLRT", "per packet", 2);
-    add_number(t, "tests, against defaults", "%", 1);
+    report_table_add_real_column(t, "tree nodes", NULL, 0);
+    report_table_add_real_column(t, "cells, no MLRT", "per packet", 2);
+    report_table_add_real_column(t, "no MLRT, against defaults", "%", 1);
+    report_table_add_real_column(t, "cells, MLRT", "per packet", 2);
+    report_table_add_real_column(t, "MLRT, against defaults", "%", 1);
+    report_table_add_real_column(t, "reduction", NULL, 2);
+    report_table_add_real_column(t, "EP share", "%", 1);
+    report_table_add_real_column(t, "tests, MLRT", "per packet", 2);
+    report_table_add_real_column(t, "tests, against defaults", "%", 1);
     const mlrta_params_row *defaults = rows;
     for (size_t i = 0; i < count; i++) {
         if (i && strcmp(rows[i].kind, rows[i - 1].kind) != 0)

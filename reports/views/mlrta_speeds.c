@@ -9,11 +9,6 @@
 static const char file[] = "mlrta_table1";
 static const char null_shader[] = "framerate_null_shader", simple_shader[] = "framerate_simple_shader";
 
-static void add_number(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void begin(report_table *t, const char *scene, const char *system, const char *basis)
 {
     report_table_begin_row(t);
@@ -77,13 +72,13 @@ report_table *mlrta_speeds_table(const mlrta_speed *rows, size_t count, const ch
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "system"});
     report_table_add_column(t, &(report_column){.name = "basis"});
-    add_number(t, "null shader", "frames/s", 2);
-    add_number(t, "simple shader", "frames/s", 2);
-    add_number(t, "null shader, rays", "million/s", 1);
-    add_number(t, "cycles per pixel", NULL, 1);
-    add_number(t, "entry points", "% of cycles", 1);
-    add_number(t, "memory", "% of cycles", 1);
-    add_number(t, "95% interval", "+-%", 2);
+    report_table_add_real_column(t, "null shader", "frames/s", 2);
+    report_table_add_real_column(t, "simple shader", "frames/s", 2);
+    report_table_add_real_column(t, "null shader, rays", "million/s", 1);
+    report_table_add_real_column(t, "cycles per pixel", NULL, 1);
+    report_table_add_real_column(t, "entry points", "% of cycles", 1);
+    report_table_add_real_column(t, "memory", "% of cycles", 1);
+    report_table_add_real_column(t, "95% interval", "+-%", 2);
     for (size_t i = 0; i < count; i++) {
         const size_t scene = mlrta_scene_of(rows[i].scene);
         if (!i || strcmp(rows[i - 1].scene, rows[i].scene) != 0)

@@ -11,11 +11,6 @@ double model_speed_error(const model_speed *row)
 
 static double slowdown(const model_speed *row) { return row->seconds / row->native_seconds; }
 
-static void add_number(report_table *t, const char *name, const char *unit, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .unit = unit, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void add_tiles(report_table *t, const model_speed *row)
 {
     if (row->tiles) {
@@ -53,10 +48,10 @@ report_table *model_speeds_table(const model_speed *rows, size_t count, const ch
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "kernel"});
     report_table_add_column(t, &(report_column){.name = "model"});
-    add_number(t, "host time", "s", 4);
-    add_number(t, "x native", NULL, 1);
+    report_table_add_real_column(t, "host time", "s", 4);
+    report_table_add_real_column(t, "x native", NULL, 1);
     report_table_add_column(t, &(report_column){.name = "cycles", .kind = REPORT_INTEGER});
-    add_number(t, "error", "%", 2);
+    report_table_add_real_column(t, "error", "%", 2);
     report_table_add_column(t, &(report_column){.name = "tiles simulated", .kind = REPORT_INTEGER});
     report_table_add_column(t, &(report_column){.name = "of tiles", .kind = REPORT_INTEGER});
     report_table_add_column(t, &(report_column){.name = "changed"});
@@ -104,10 +99,10 @@ report_table *model_speeds_summary(const model_speed *rows, size_t count, const 
     report_table *t = numbers ? report_table_create("Models: summary") : NULL;
     report_table_set_caption(t, caption);
     report_table_add_column(t, &(report_column){.name = "model"});
-    add_number(t, "x native, median", NULL, 1);
-    add_number(t, "x native, worst", NULL, 1);
-    add_number(t, "error, median", "%", 2);
-    add_number(t, "error, worst", "%", 2);
+    report_table_add_real_column(t, "x native, median", NULL, 1);
+    report_table_add_real_column(t, "x native, worst", NULL, 1);
+    report_table_add_real_column(t, "error, median", "%", 2);
+    report_table_add_real_column(t, "error, worst", "%", 2);
     for (size_t m = 0; numbers && m < models; m++) {
         size_t n = 0;
         report_table_begin_row(t);

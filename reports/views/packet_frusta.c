@@ -2,11 +2,6 @@
 
 #include "reports/views/mft_paper.h"
 
-static void add_number_column(report_table *t, const char *name, int decimals)
-{
-    report_table_add_column(t, &(report_column){.name = name, .kind = REPORT_REAL, .decimals = decimals});
-}
-
 static void add_side(report_table *t, const char *scene, const char *algorithm, const packet_frusta_side *s)
 {
     const uint64_t numbers[] = {s->rays, s->tri_accesses, s->tri_after_culling, s->aabb_tests, s->isect_tests, s->count_cycles, s->issue_cycles};
@@ -43,8 +38,8 @@ report_table *packet_frusta_counts(const packet_frusta_row *rows, size_t count, 
     report_table_add_column(t, &(report_column){.name = "scene"});
     report_table_add_column(t, &(report_column){.name = "algorithm"});
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        add_number_column(t, names[i], 0);
-    add_number_column(t, "cycles per ray", 1);
+        report_table_add_real_column(t, names[i], NULL, 0);
+    report_table_add_real_column(t, "cycles per ray", NULL, 1);
     report_table_begin_group(t, "measured");
     for (size_t i = 0; i < count; i++) {
         add_side(t, rows[i].scene, "P-Packet", &rows[i].packet);
@@ -76,7 +71,7 @@ report_table *packet_frusta_reductions(const packet_frusta_row *rows, size_t cou
     report_table_set_caption(t, caption);
     report_table_add_column(t, &(report_column){.name = "scene"});
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        add_number_column(t, names[i], 2);
+        report_table_add_real_column(t, names[i], NULL, 2);
     report_table_begin_group(t, "measured");
     for (size_t i = 0; i < count; i++) {
         const packet_frusta_side *p = &rows[i].packet, *f = &rows[i].frusta;
