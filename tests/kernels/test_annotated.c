@@ -50,9 +50,15 @@ static const struct {
     unsigned id;
     const char *name;
 } other_names[] = {
-    {LRB_OP_jcc, "lrb_j"},           {LRB_OP_jcc, "lrb_gather_all_"},  {LRB_OP_load_ps, "_load_"}, {LRB_OP_load_pi, "_load_"},
-    {LRB_OP_store_ps, "_store_"}, {LRB_OP_store_pi, "_store_"}, {LRB_OP_cmp, "lrb_cmp_ptr"},
-    {LRB_OP_gatherd_ps, "lrb_gather_all_ps"}, {LRB_OP_kortest, "lrb_gather_all_"},
+    {LRB_OP_jcc, "lrb_j"},
+    {LRB_OP_cmp, "lrb_cmp_ptr"},
+    {LRB_OP_load_ps, "lrb_load_"},
+    {LRB_OP_load_ps, "lrb_mask_load_1to16_ps"},
+    {LRB_OP_load_pi, "lrb_load_"},
+    {LRB_OP_store_ps, "lrb_store_4_ps"},
+    {LRB_OP_gatherd_ps, "lrb_gather_all_ps"}, /* the loop of a whole gather is one call */
+    {LRB_OP_kortest, "lrb_gather_all_ps"},
+    {LRB_OP_jcc, "lrb_gather_all_ps"},
 };
 
 /* Does the line, as the sources have it, hold the name of the op? Forms add to the name in front and behind. */
