@@ -113,26 +113,14 @@ static void check_scene(const char *spec)
     stage_destroy(&st);
 }
 
-static void kd16__usual_scenes_hard_views__same_hits_through_all_trees(void **state)
-{
-    size_t scenes;
-    const char *const *spec = scene_builtin_usual(&scenes);
-    (void)state;
-    for (size_t i = 0; i < scenes; i++)
-        check_scene(spec[i]);
-}
-
-static void kd16__files__same_hits_through_all_trees(void **state)
+static void check_files(void)
 {
     const char *folder = getenv("LANETRACE_SCENES");
     DIR *d = folder ? opendir(folder) : NULL;
     struct dirent *e;
-    (void)state;
-    if (!with_files || !d) {
-        print_message("# skipped: files, %s\n", with_files ? "LANETRACE_SCENES is no folder" : "which are asked for in the suite 'slow'");
-        if (d)
-            closedir(d);
-        return; /* cmocka's skip() would print "not ok" */
+    if (!d) {
+        print_message("# skipped: real scenes: LANETRACE_SCENES is no folder\n"); /* cmocka's skip() would print "not ok" */
+        return;
     }
     while ((e = readdir(d)) != NULL) {
         char spec[4096];
@@ -143,6 +131,17 @@ static void kd16__files__same_hits_through_all_trees(void **state)
         check_scene(spec);
     }
     closedir(d);
+}
+
+static void kd16__scenes_hard_views__same_hits_through_all_trees(void **state)
+{
+    size_t scenes;
+    const char *const *spec = scene_builtin_usual(&scenes);
+    (void)state;
+    for (size_t i = 0; i < scenes; i++)
+        check_scene(spec[i]);
+    if (with_files)
+        check_files();
 }
 
 /* A camera on a plane of the tree, on a line where two meet, on a point where three do (C2), looking along an axis or not (C3). */
@@ -379,8 +378,7 @@ static void mlrta__levels_and_threads__same_results(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kd16__usual_scenes_hard_views__same_hits_through_all_trees),
-        cmocka_unit_test(kd16__files__same_hits_through_all_trees),
+        cmocka_unit_test(kd16__scenes_hard_views__same_hits_through_all_trees),
         cmocka_unit_test(kd16__camera_on_planes__same_hits),
         cmocka_unit_test(mlrta__every_parameter__hits_from_the_root),
         cmocka_unit_test(mlrta__corner_rays_only__hits_are_lost),
