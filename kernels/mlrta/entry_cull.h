@@ -42,7 +42,8 @@ LRB_INLINE void entry_planes_setup(lrb_ctx *c, const kd16 *k)
     lrb_v16i bits = lrb_and_pi_s3(c, lrb_castps_pi(normal), lrb_full_pi(RAYS16_CONSTANT(k->constants, absolute)));
     lrb_v16f slack = lrb_load_1to16_ps(c, RAYS16_CONSTANT(k->constants, slack));
     lrb_v16f tilt = lrb_load_1to16_ps(c, KD16_CELLS(k->cells, plane_error));
-    tilt = lrb_madd231_ps(c, tilt, lrb_add_ps(c, slack, slack), entry_axes_sum(c, lrb_castpi_ps(bits)));
+    lrb_v16f span = entry_axes_sum(c, lrb_castpi_ps(bits));
+    tilt = lrb_madd231_ps(c, tilt, lrb_add_ps(c, slack, slack), span);
     normal = lrb_sub_ps(c, normal, tilt);
     lrb_v16f low = lrb_max_ps(c, normal, zero);
     lrb_v16f high = lrb_max_ps(c, lrb_sub_ps(c, zero, normal), zero);

@@ -90,7 +90,8 @@ LRB_INLINE void kd16_blocks(lrb_ctx *c, kd16 *k, lrb_ptr tile, lrb_ptr frame, co
         k->n->n[KERNEL_units_packets]++;
         k->n->n[KERNEL_rays] += (unsigned)__builtin_popcount(active.bits);
         k->n->n[KERNEL_rays_primary] += (unsigned)__builtin_popcount(active.bits);
-        kd16_packet(c, k, &s, lrb_lea(c, k->scratch, block, 4, SCRATCH_CORNERS), start ? lrb_load32(c, *start) : lrb_imm(0), nothing, active);
+        const lrb_r64 root = start ? lrb_load32(c, *start) : lrb_imm(0);
+        kd16_packet(c, k, &s, lrb_lea(c, k->scratch, block, 4, SCRATCH_CORNERS), root, nothing, active);
         kd16_store(c, lrb_lea(c, frame, lrb_shl(c, block, 6), 1, 0), &s, k);
         block = lrb_bsfi(c, block, blocks);
     }

@@ -174,8 +174,10 @@ LRB_INLINE bool mlrta_next(lrb_ctx *c, mlrta_state *m, mlrta_tile *t)
             lrb_store32(c, MLRTA_LOOP(m, LOOP_TOP), lrb_sub(c, top, lrb_imm(ENTRY_TILE_FRAME)));
         t->edge = lrb_shr(c, edge, log2);
         lrb_r64 column = lrb_and(c, next, lrb_imm((1u << log2) - 1)), row = lrb_shr(c, next, log2);
-        t->x = lrb_add(c, lrb_load32(c, lrb_at(frame, FRAME_X)), lrb_imul(c, column, t->edge));
-        t->y = lrb_add(c, lrb_load32(c, lrb_at(frame, FRAME_Y)), lrb_imul(c, row, t->edge));
+        lrb_r64 right = lrb_imul(c, column, t->edge);
+        t->x = lrb_add(c, lrb_load32(c, lrb_at(frame, FRAME_X)), right);
+        lrb_r64 down = lrb_imul(c, row, t->edge);
+        t->y = lrb_add(c, lrb_load32(c, lrb_at(frame, FRAME_Y)), down);
         if (lrb_jl(c, lrb_cmp(c, t->x, m->width)) && lrb_jl(c, lrb_cmp(c, t->y, m->height))) {
             t->start.node = lrb_load32(c, lrb_at(frame, FRAME_NODE));
             t->start.cell = lrb_load_ps(c, lrb_at(frame, 0));
