@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/job_msaa.h"
 #include "kernels/visibility_filter.h"
 #include "reports/heat_map.h"
 #include "reports/image_writer.h"
@@ -63,26 +64,42 @@ float *picture_visibility(const run_result *r, bool filtered, base_error *err)
     return seen;
 }
 
+/* What is seen along a direction: added to a pixel. */
+static void add_shade(const run_result *r, uint32_t id, float t, const float direction[3], float seen, float share, float pixel[3])
+{
+    double light = 0, d[3];
+    for (int axis = 0; axis < 3; axis++)
+        d[axis] = (double)direction[axis];
+    if (id != JOB_NO_HIT)
+        light = brightness(r, id, (double)t, d, (double)seen);
+    for (int channel = 0; channel < 3; channel++)
+        pixel[channel] += share * (id == JOB_NO_HIT ? background
+                                                    : (float)light * r->scene->materials[r->scene->triangle_material[id]].base_color[channel]);
+}
+
+static void shade(const run_result *r, unsigned x, unsigned y, float seen, float pixel[3])
+{
+    const job_pixel p = kernel_job_pixel(r->job, x, y);
+    const job_frame_tile *tile = &r->job->frame_host[p.tile];
+    float direction[3];
+    unsigned row = 0;
+    const job_frame_tile *samples = job_msaa_samples(r->job, x, y, &row);
+    for (unsigned j = 0; samples && j < 16; j++) {
+        job_msaa_direction(r->job, x, y, j, direction);
+        add_shade(r, samples->id[row][j], samples->t[row][j], direction, seen, 1.0f / 16, pixel);
+    }
+    kernel_job_direction(r->job, x, y, direction);
+    if (!samples)
+        add_shade(r, tile->id[p.block][p.pixel], tile->t[p.block][p.pixel], direction, seen, 1, pixel);
+}
+
 base_status picture_lit(const run_result *r, const float *seen, report_image *out, base_error *err)
 {
     const unsigned width = r->options.width, height = r->options.height;
     base_status status = report_image_create((int)width, (int)height, 3, out, err);
     for (unsigned y = 0; status == BASE_OK && y < height; y++)
-        for (unsigned x = 0; x < width; x++) {
-            job_pixel p = kernel_job_pixel(r->job, x, y);
-            const job_frame_tile *tile = &r->job->frame_host[p.tile];
-            uint32_t id = tile->id[p.block][p.pixel];
-            float *pixel = report_image_pixel(out, (int)x, (int)y), direction[3];
-            double light = 0, d[3];
-            kernel_job_direction(r->job, x, y, direction);
-            for (int axis = 0; axis < 3; axis++)
-                d[axis] = (double)direction[axis];
-            if (id != JOB_NO_HIT)
-                light = brightness(r, id, (double)tile->t[p.block][p.pixel], d, (double)seen[(size_t)y * width + x]);
-            for (int channel = 0; channel < 3; channel++)
-                pixel[channel] = id == JOB_NO_HIT ? background
-                                                  : (float)light * r->scene->materials[r->scene->triangle_material[id]].base_color[channel];
-        }
+        for (unsigned x = 0; x < width; x++)
+            shade(r, x, y, seen[(size_t)y * width + x], report_image_pixel(out, (int)x, (int)y));
     return status;
 }
 
@@ -97,12 +114,13 @@ base_status picture_shaded(const run_result *r, report_image *out, base_error *e
 base_status picture_write_aov(const run_result *r, const char *path, base_error *err)
 {
     const size_t width = r->options.width, pixels = width * r->options.height;
-    const bool shadows = r->job->shadows_host != NULL;
+    const bool shadows = r->job->shadows_host != NULL, msaa = r->job->params.msaa;
     float *planes = malloc(4 * pixels * sizeof *planes);
-    uint32_t *prim = malloc(pixels * sizeof *prim);
+    uint32_t *prim = malloc(2 * pixels * sizeof *prim);
     base_status status = BASE_ERR_NOMEM;
     if (planes && prim) {
         float *z = planes, *u = planes + pixels, *v = planes + 2 * pixels, *seen = planes + 3 * pixels;
+        uint32_t *marked = prim + pixels;
         for (size_t i = 0; i < pixels; i++) {
             job_pixel p = kernel_job_pixel(r->job, (unsigned)(i % width), (unsigned)(i / width));
             const job_frame_tile *tile = &r->job->frame_host[p.tile];
@@ -111,15 +129,18 @@ base_status picture_write_aov(const run_result *r, const char *path, base_error 
             v[i] = tile->v[p.block][p.pixel];
             prim[i] = tile->id[p.block][p.pixel];
             seen[i] = visibility(r->job, p);
+            marked[i] = msaa && job_msaa_marked(r->job, (unsigned)(i % width), (unsigned)(i / width));
         }
+        const report_channel extra = msaa ? (report_channel){"marked", REPORT_CHANNEL_UINT, marked}
+                                          : (report_channel){"visibility", REPORT_CHANNEL_FLOAT, seen};
         const report_channel channels[] = {
             {"Z", REPORT_CHANNEL_FLOAT, z},
             {"prim", REPORT_CHANNEL_UINT, prim},
             {"U", REPORT_CHANNEL_FLOAT, u},
             {"V", REPORT_CHANNEL_FLOAT, v},
-            {"visibility", REPORT_CHANNEL_FLOAT, seen},
+            extra,
         };
-        status = report_aov_write(path, (int)width, (int)r->options.height, channels, shadows ? 5 : 4, err);
+        status = report_aov_write(path, (int)width, (int)r->options.height, channels, shadows || msaa ? 5 : 4, err);
     } else {
         base_fail(err, status, path, "out of memory for %zu pixels", pixels);
     }

@@ -8,6 +8,7 @@
 /**
  * The scene as the run's rays hit it: base colours, Lambert's law for a point light at the light's centre, times
  * the filtered visibility of kernels with shadows, and a little light from the camera so that nothing is black; what is missed is a pale grey.
+ * A pixel whose samples were traced is their mean.
  *
  * Errors: BASE_ERR_NOMEM.
  */
@@ -24,7 +25,7 @@ base_status picture_lit(const run_result *result, const float *seen, report_imag
  */
 float *picture_visibility(const run_result *result, bool filtered, base_error *err);
 
-/** Write Z, prim, U, V and, of kernels with shadows, visibility (docs/interface.md) as an EXR file. */
+/** Write Z, prim, U, V and, of kernels with shadows, visibility, of those that mark pixels, marked (docs/interface.md) as an EXR file. */
 base_status picture_write_aov(const run_result *result, const char *path, base_error *err);
 
 /**

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/job_msaa.h"
 #include "kernels/job_shadow.h"
 
 /* Relative widening of directions for box tests: 256 units in the last place (kernels/slab16.h says why). */
@@ -90,9 +91,9 @@ static void direction_bounds(job_constants *k, const scene_primary_rays *rays, u
     k->guard = guard_relative * (float)largest;
 }
 
-static void fill_constants(kernel_job *job, const scene_primary_rays *rays)
+void job_constants_fill(job_constants *k, const scene_primary_rays *rays, unsigned width, unsigned height)
 {
-    job_constants *k = job->constants_host;
+    const unsigned tiles_x = (width + JOB_TILE_PIXELS - 1) / JOB_TILE_PIXELS, tiles_y = (height + JOB_TILE_PIXELS - 1) / JOB_TILE_PIXELS;
     memset(k, 0, sizeof *k);
     for (int i = 0; i < 16; i++) {
         int axis = i & 3;
@@ -105,7 +106,7 @@ static void fill_constants(kernel_job *job, const scene_primary_rays *rays)
         k->no_pixel[i] = -INFINITY;
     }
     fill_deltas(k, rays);
-    direction_bounds(k, rays, (job->tiles_x + 1) * JOB_TILE_PIXELS, (job->tiles_y + 1) * JOB_TILE_PIXELS);
+    direction_bounds(k, rays, (tiles_x + 1) * JOB_TILE_PIXELS, (tiles_y + 1) * JOB_TILE_PIXELS);
     memcpy(k->d00, rays->d00, sizeof k->d00);
     memcpy(k->dx, rays->dx, sizeof k->dx);
     memcpy(k->dy, rays->dy, sizeof k->dy);
@@ -152,8 +153,20 @@ static base_status map_tree(kernel_job *job, lrb_memory *memory, base_error *err
                                     &job->light_constants, err);
     }
     if (status == BASE_OK)
-        status = lrb_memory_map(memory, "triangle records", job->records_host, job->record_count * sizeof *job->records_host,
-                                &job->records, err);
+        status = lrb_memory_map(memory, "triangle records", job->records_host,
+                                job->record_count * sizeof *job->records_host * (job->params.msaa ? 2 : 1), &job->records, err);
+    return status;
+}
+
+static base_status map_msaa(kernel_job *job, lrb_memory *memory, base_error *err)
+{
+    base_status status = lrb_memory_map(memory, "anti-aliasing constants", job->msaa_constants_host, sizeof *job->msaa_constants_host,
+                                        &job->msaa_constants, err);
+    if (status == BASE_OK)
+        status = lrb_memory_map(memory, "sample constants", job->sample_constants_host, sizeof *job->sample_constants_host,
+                                &job->sample_constants, err);
+    if (status == BASE_OK)
+        status = lrb_memory_map(memory, "samples", job->msaa_tiles_host, job->msaa_tiles.size, &job->msaa_tiles, err);
     return status;
 }
 
@@ -167,6 +180,8 @@ static base_status map_segments(kernel_job *job, base_error *err)
         status = lrb_memory_map(&memory, "frame", job->frame_host, frame_tiles(job) * sizeof *job->frame_host, &job->frame, err);
     if (status == BASE_OK)
         status = map_tree(job, &memory, err);
+    if (status == BASE_OK && job->params.msaa)
+        status = map_msaa(job, &memory, err);
     if (status != BASE_OK || !job->shadows_host)
         return status;
     if (job->samples_host)
@@ -217,13 +232,15 @@ static base_status create(const bvh *tree, const kdtree *kd, unsigned unit_log2,
         return base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for %ux%u pixels", width, height);
     }
     scene_primary_rays rays = scene_camera_rays(camera, width, height);
-    fill_constants(job, &rays);
+    job_constants_fill(job->constants_host, &rays, width, height);
     fill_tiles(job);
     if (kd)
         fill_cells(job, job->cells_host, &rays);
     base_status status = job_shadow_create(job, light, err);
     if (status == BASE_OK && job->light_constants_host)
         fill_light_cells(job);
+    if (status == BASE_OK)
+        status = job_msaa_create(job, camera, err);
     if (status == BASE_OK)
         status = map_segments(job, err);
     if (status != BASE_OK)
@@ -253,6 +270,7 @@ void kernel_job_destroy(kernel_job **job)
         free((*job)->cells_host);
         free((*job)->light_constants_host);
         job_shadow_destroy(*job);
+        job_msaa_destroy(*job);
         free(*job);
     }
     *job = NULL;

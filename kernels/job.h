@@ -67,6 +67,9 @@ typedef struct job_constants {
     job_light light;
 } job_constants;
 
+/** Fill in the constants of a picture's rays; the light is 0. */
+void job_constants_fill(job_constants *k, const scene_primary_rays *rays, unsigned width, unsigned height);
+
 /* The root cell of a kd-tree as rays with one origin see it, and their directions: for kernels that traverse one. */
 typedef struct job_cells {
     float cell[16]; /* min x y z less the origin, 0; minus (max x y z less the origin), minus the largest distance; 0 */
@@ -117,6 +120,11 @@ typedef struct kernel_job {
     job_shadow_tile *shadows_host;
     job_cells *cells_host; /* two */
     job_constants *light_constants_host; /* NULL: there are no hard shadows */
+    lrb_segment msaa_constants, sample_constants, msaa_tiles; /* these and their host memory: only of kernels with anti-aliasing */
+    struct job_msaa_constants *msaa_constants_host; /* kernels/job_msaa.h */
+    job_constants *sample_constants_host;           /* of the rays of samples */
+    struct job_msaa_tile *msaa_tiles_host;
+    bvh_triangle *msaa_records_host; /* the tree's, and behind them the same number of bvh_edges (kernels/accel/bvh_edges.h) */
     bvh_triangle *records_host; /* of the tree */
     const bvh *tree;            /* one of the two; not owned: must outlive the job */
     const kdtree *kdtree;

@@ -15,6 +15,7 @@ static const char *const culling_names[] = {"inverse", "direct", "corner-rays"};
 static const char *const divergent_names[] = {"split", "xp"};
 static const char *const packets_names[] = {"octants", "rays"};
 static const char *const shadow_packets_names[] = {"whole", "normal", "triangle"};
+static const char *const marking_names[] = {"pixel", "block"};
 
 static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
     [KERNEL_PARAM_CULL_BACKFACE] = {"cull_backface", 0, 1, "1: triangles are hit from their front side only", offsetof(kernel_params, cull_backface), NULL},
@@ -38,6 +39,8 @@ static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
     [KERNEL_PARAM_DIVERGENT_PACKETS] = {"divergent_packets", 0, 1, "packets whose rays differ in sign are traced by octants, or ray by ray", offsetof(kernel_params, divergent_packets), packets_names},
     [KERNEL_PARAM_ENDS] = {"ends", 0, 1, "1: a triangle that all rays of a tile hit ends its search", offsetof(kernel_params, ends), NULL},
     [KERNEL_PARAM_SHADOW_PACKETS] = {"shadow_packets", 0, 2, "shadow rays of a block that go together: all, of surfaces that face alike, of one triangle", offsetof(kernel_params, shadow_packets), shadow_packets_names},
+    [KERNEL_PARAM_MARKING] = {"marking", 0, 1, "what is marked where a silhouette crosses: pixels, or blocks of 4x4", offsetof(kernel_params, marking), marking_names},
+    [KERNEL_PARAM_RETRACE] = {"retrace", 0, 1, "1: 16 samples of each marked pixel are traced; 0: pixels are marked only", offsetof(kernel_params, retrace), NULL},
 };
 
 const kernel_param_info *kernel_param_list(size_t *count)

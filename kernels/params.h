@@ -22,6 +22,9 @@ typedef enum kernel_packets { KERNEL_PACKETS_OCTANTS, KERNEL_PACKETS_RAYS } kern
 /* Which shadow rays of a block are traced together: all, those from surfaces that face alike, or those from one triangle. */
 typedef enum kernel_shadow_packets { KERNEL_SHADOW_WHOLE, KERNEL_SHADOW_NORMAL, KERNEL_SHADOW_TRIANGLE } kernel_shadow_packets;
 
+/* What is marked where a silhouette crosses: the pixels that it crosses, or the blocks of 4x4. */
+typedef enum kernel_marking { KERNEL_MARKING_PIXEL, KERNEL_MARKING_BLOCK } kernel_marking;
+
 typedef struct kernel_params {
     unsigned cull_backface; /* 1: triangles are hit from their front only */
     unsigned max_leaf;      /* triangles in a leaf of the BVH, at most */
@@ -39,6 +42,9 @@ typedef struct kernel_params {
     unsigned divergent_packets; /* kernel_packets */
     unsigned shadow_packets; /* kernel_shadow_packets */
     unsigned hard_shadows;  /* no parameter: 1: the kernel traces a ray to the light's point from each hit */
+    unsigned msaa;          /* no parameter: 1: the kernel marks pixels that silhouettes cross */
+    unsigned marking;       /* kernel_marking */
+    unsigned retrace;       /* 1: 16 samples of marked pixels are traced */
     unsigned ends;          /* 1: a triangle that all rays of a tile hit ends the search for its entry point */
     unsigned samples;       /* option --samples: shadow rays a pixel; 0: the kernel traces none */
     double light_scale;     /* option --light-scale: of the light's edges, about its centre */
@@ -67,6 +73,8 @@ typedef enum kernel_param {
     KERNEL_PARAM_DIVERGENT_PACKETS,
     KERNEL_PARAM_ENDS,
     KERNEL_PARAM_SHADOW_PACKETS,
+    KERNEL_PARAM_MARKING,
+    KERNEL_PARAM_RETRACE,
     KERNEL_PARAM_COUNT
 } kernel_param;
 

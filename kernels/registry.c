@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection", "shading", "entry search"};
+const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection", "shading", "entry search", "silhouettes"};
 
 /* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count, mft_primary_record and mft_primary_annotated */
 #define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record, name##_annotated
@@ -10,6 +10,7 @@ KERNEL_TILES(packet16_primary);
 KERNEL_TILES(mft_primary);
 KERNEL_TILES(packet16_soft);
 KERNEL_TILES(mft_soft);
+KERNEL_TILES(mft_msaa);
 KERNEL_TILES(kd16_primary);
 KERNEL_TILES(kd16_shadow);
 KERNEL_TILES(mlrta_primary);
@@ -93,6 +94,18 @@ const kernel_info *kernel_list(size_t *count)
             .phases = tracing_phases | shading_phase,
             .tile = {mft_soft_native, mft_soft_count, mft_soft_record},
             .annotated = mft_soft_annotated,
+        },
+        {
+            .name = "mft-msaa",
+            .summary = "primary rays as mft-primary, then 16 samples of each pixel that a silhouette crosses: adaptive anti-aliasing",
+            .paper = "Benthin and Wald 2009, 6.1 and Figure 7",
+            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16, .msaa = 1, .marking = KERNEL_MARKING_PIXEL, .retrace = 1, .light_scale = 1},
+            .counters = tracing_counters | BIT(rays_msaa) | BIT(silhouettes) | BIT(edge_tests) | BIT(pixels_marked) | BIT(units_groups) |
+                        BIT(units_frusta) | BIT(units_msaa_groups) | BIT(units_msaa_frusta),
+            .params = tracing_params | PARAM(MARKING) | PARAM(RETRACE),
+            .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_SILHOUETTES,
+            .tile = {mft_msaa_native, mft_msaa_count, mft_msaa_record},
+            .annotated = mft_msaa_annotated,
         },
         {
             .name = "kd16-primary",

@@ -36,13 +36,13 @@ LRB_INLINE void corner_cull_guard(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch
         lrb_store_ps(c, lrb_at(scratch, SCRATCH_MINUS_GUARD), lrb_sub_ps(c, zero, guard));
 }
 
-/* Smallest and largest volume over one edge among the four corner rays: triangle16_edge with the factors exchanged, for the four
-   side by side, so that none waits for its own last product. */
-LRB_INLINE void corner_cull_range(lrb_ctx *c, lrb_ptr scratch, int edge, bool cull, lrb_v16f *smallest, lrb_v16f *largest)
+/* Smallest and largest volume over the edge at planes + edge among the four corner rays: triangle16_edge with the factors exchanged, for
+   the four side by side, so that none waits for its own last product. */
+LRB_INLINE void corner_cull_range(lrb_ctx *c, lrb_ptr scratch, lrb_ptr planes, int edge, bool cull, lrb_v16f *smallest, lrb_v16f *largest)
 {
     lrb_v16f plane[3], volume[4];
     for (int axis = 0; axis < 3; axis++)
-        plane[axis] = lrb_load_1to16_ps(c, lrb_at(scratch, edge + triangle16_component[axis]));
+        plane[axis] = lrb_load_1to16_ps(c, lrb_at(planes, edge + triangle16_component[axis]));
     for (int k = 0; k < 4; k++)
         volume[k] = lrb_mul_ps_s3(c, plane[0], lrb_full_ps(corner_cull_ray(scratch, k, 0)));
     for (int axis = 1; axis < 3; axis++)
@@ -75,7 +75,7 @@ LRB_INLINE lrb_k16 corner_cull(lrb_ctx *c, lrb_ptr constants, lrb_ptr scratch, l
     for (int i = 0; i < 3; i++) {
         lrb_v16f smallest, largest;
         int group = edge_planes[i] - SCRATCH_EDGES;
-        corner_cull_range(c, scratch, edge_planes[i], cull, &smallest, &largest);
+        corner_cull_range(c, scratch, scratch, edge_planes[i], cull, &smallest, &largest);
         front = lrb_mask_cmple_ps_s3(c, front, smallest, lrb_1to16_ps(lrb_at(scratch, SCRATCH_GUARD + group)));
         if (!cull)
             back = lrb_mask_cmpnlt_ps_s3(c, back, largest, lrb_1to16_ps(lrb_at(scratch, SCRATCH_MINUS_GUARD + group)));

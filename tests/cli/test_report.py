@@ -9,7 +9,7 @@ from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
 HAVE_GNUPLOT = shutil.which('gnuplot') is not None
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-table2', 'mft-light-size', 'mft-quality', 'mft-prediction', 'stability',
+SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-table2', 'mft-light-size', 'mft-quality', 'mft-msaa', 'mft-prediction', 'stability',
           'mlrta-table1', 'mlrta-table2', 'mlrta-table3', 'mlrta-tiles', 'mlrta-culling', 'mlrta-params']
 
 
@@ -214,6 +214,46 @@ def mft_quality__builtin_scene__errors_fall_with_samples(folder):
     assert figure[3]['inside penumbrae, RMSE'] > figure[11]['inside penumbrae, RMSE'] > 0
     if HAVE_IMAGES:
         assert all(os.path.exists(folder + '/out/rooms-804-' + rest) for rest in ('256-samples.png', '16-interleaved-filtered.png'))
+
+
+def mft_msaa__builtin_scene__as_run_alone(folder):
+    pictures = [] if HAVE_IMAGES else ['--no-pictures']
+    scene = ['--scene', 'builtin:rooms-804', '--size', '40x30']
+    tables = report(folder, 'mft-msaa', *scene, *pictures)
+    marked, published = tables['Adaptive anti-aliasing: marked pixels']
+    cycles, = tables['Adaptive anti-aliasing: cycles']
+    none, adaptive, full = tables['Adaptive anti-aliasing: error of the picture']
+    alone = stats_of('mft-msaa', *scene, '--param', 'cull_backface=1')
+    only = stats_of('mft-msaa', *scene, '--param', 'cull_backface=1', '--param', 'retrace=0')
+    blocks = stats_of('mft-msaa', *scene, '--param', 'cull_backface=1', '--param', 'marking=block', '--model', 'native')
+    primary = stats_of('mft-primary', *scene, '--param', 'cull_backface=1')
+    large = stats_of('mft-primary', '--scene', 'builtin:rooms-804', '--size', '160x120', '--param', 'cull_backface=1')
+    counts = alone['counts']
+    assert abs(marked['marked'] - 100 * counts['pixels_marked'] / 1200) < 0.006 and marked['edge pixels missed'] == 0 and marked['recall'] == 100
+    assert abs(marked['marked by blocks'] - 100 * blocks['counts']['pixels_marked'] / 1200) < 0.006
+    assert marked['silhouettes'] == counts['silhouettes'] and marked['edge tests'] == counts['edge_tests'] and 50 < marked['precision'] <= 100
+    assert published['marked'] == 11.5 and published['recall'] is None
+    assert counts['rays'] == 1200 + counts['rays_msaa'] and counts['rays_msaa'] == 16 * counts['pixels_marked']
+    total = {name: stats['cycles']['total'] for name, stats in
+             {'primary': primary, 'only': only, 'alone': alone, 'large': large}.items()}
+    for column, value in {'primary rays': total['primary'], 'marking': total['only'] - total['primary'], 'samples': total['alone'] - total['only'],
+                          'adaptive': total['alone'], '16 rays a pixel': total['large']}.items():
+        assert abs(cycles[column] - value / 1e6) < 0.00051, column
+    assert only['cycles']['by_phase']['silhouettes'] > 0 and 'silhouettes' not in primary['cycles']['by_phase']
+    assert [row['rays per pixel'] for row in (none, full)] == [1, 16] and none['RMSE'] > adaptive['RMSE'] >= full['RMSE'] > 0
+    fails(['report', 'mft-msaa', '--size', '4096x16', '--out', folder + '/no'], '--size')
+    if HAVE_IMAGES:
+        assert all(os.path.exists(folder + '/out/rooms-804' + rest) for rest in ('-1-ray.png', '-adaptive.png', '-16-rays.png', '-marked.png'))
+
+
+def mft_msaa__own_scene__every_form(folder):
+    scene = own_scene(folder)
+    if unread(scene):
+        return unread(scene)
+    tables = report(folder, 'mft-msaa', '--scene', scene, '--size', '32x24', '--no-pictures')
+    assert [row['scene'] for row in tables['Adaptive anti-aliasing: cycles']] == ['own scene']
+    assert tables['Adaptive anti-aliasing: marked pixels'][0]['edge pixels missed'] == 0
+    return None
 
 
 def mft_quality__own_scene__every_form(folder):

@@ -13,9 +13,9 @@
 #include "scene/builtin.h"
 #include "tests/kernels/trace.h"
 
-enum { SIZE = 80, KERNELS = 4 };
+enum { SIZE = 80, KERNELS = 5 };
 
-static const char *kernel_names[KERNELS] = {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft"};
+static const char *kernel_names[KERNELS] = {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft", "mft-msaa"};
 
 typedef struct fixture {
     scene *s;
@@ -145,7 +145,9 @@ static void check_address(stream_check *s, const lrb_event *e, uint32_t bytes)
     const kernel_job *j = s->job;
     if (!in_segment(e->aux, bytes, scratch) && !in_segment(e->aux, bytes, j->nodes) && !in_segment(e->aux, bytes, j->records) &&
         !in_segment(e->aux, bytes, j->constants) && !in_segment(e->aux, bytes, j->tiles) && !in_segment(e->aux, bytes, j->frame) &&
-        !in_segment(e->aux, bytes, j->samples) && !in_segment(e->aux, bytes, j->normals) && !in_segment(e->aux, bytes, j->shadows))
+        !in_segment(e->aux, bytes, j->samples) && !in_segment(e->aux, bytes, j->normals) && !in_segment(e->aux, bytes, j->shadows) &&
+        !in_segment(e->aux, bytes, j->msaa_constants) && !in_segment(e->aux, bytes, j->sample_constants) &&
+        !in_segment(e->aux, bytes, j->msaa_tiles))
         complain(s, e, "an address in no segment");
     if (e->aux % bytes != 0 && bytes <= 64)
         complain(s, e, "a misaligned address");
@@ -167,7 +169,8 @@ static void check_events(void *user, const lrb_event *events, uint32_t count)
             if (e->src[k] > s->ops)
                 complain(s, e, "a source before the stream began");
         int vector = lrb_op_kind_of((lrb_op_id)op) == LRB_KIND_VECTOR;
-        if (op == LRB_OP_gatherd_ps) /* from elements, not from a line's beginning */
+        const int stream = op == LRB_OP_loadunpackl_ps || op == LRB_OP_loadunpackh_ps || op == LRB_OP_packstorel_ps || op == LRB_OP_packstoreh_ps;
+        if (op == LRB_OP_gatherd_ps || stream) /* from elements, not from a line's beginning */
             check_address(s, e, 4);
         else if (vector && (e->op & LRB_FORM_MEMORY || lrb_op_is_memory((lrb_op_id)op)))
             check_address(s, e, lrb_form_bytes(e->op) ? lrb_form_bytes(e->op) : 64);

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/job_msaa.h"
 #include "kernels/job_shadow.h"
 #include "lrbni/base/hash.h"
 #include "lrbni/base/parallel.h"
@@ -68,6 +69,20 @@ static void trace_tile(void *user, size_t piece, unsigned worker)
     r->tile_hashes[piece] = w->tile_hash;
 }
 
+/* A hash of a pixel's samples; 0 for none. */
+static uint32_t hash_samples(const kernel_job *job, unsigned x, unsigned y)
+{
+    unsigned row = 0;
+    const job_frame_tile *samples = job_msaa_samples(job, x, y, &row);
+    uint64_t hash = BASE_HASH_START;
+    if (!samples)
+        return 0;
+    hash = base_hash(hash, samples->id[row], sizeof samples->id[row]);
+    hash = base_hash(hash, samples->t[row], sizeof samples->t[row]);
+    hash = base_hash(hash, samples->u[row], sizeof samples->u[row]);
+    return (uint32_t)base_hash(hash, samples->v[row], sizeof samples->v[row]) | 1;
+}
+
 static void gather_pixels(const kernel_job *job, trace_picture *picture)
 {
     for (unsigned y = 0; y < picture->height; y++)
@@ -79,6 +94,8 @@ static void gather_pixels(const kernel_job *job, trace_picture *picture)
             picture->t[i] = tile->t[p.block][p.pixel];
             picture->u[i] = tile->u[p.block][p.pixel];
             picture->v[i] = tile->v[p.block][p.pixel];
+            if (job->params.msaa)
+                picture->occlusion[i] = hash_samples(job, x, y);
             if (!job->shadows_host)
                 continue;
             picture->occlusion[i] = job->shadows_host[p.tile].occlusion[p.block][p.pixel];
@@ -288,7 +305,7 @@ uint64_t trace_hash(const trace_picture *picture)
     hash = base_hash(hash, picture->t, picture->pixels * sizeof *picture->t);
     hash = base_hash(hash, picture->u, picture->pixels * sizeof *picture->u);
     hash = base_hash(hash, picture->v, picture->pixels * sizeof *picture->v);
-    if (!picture->counts.n[KERNEL_rays_shadow])
+    if (!picture->counts.n[KERNEL_rays_shadow] && !picture->counts.n[KERNEL_rays_msaa])
         return hash;
     hash = base_hash(hash, picture->occlusion, picture->pixels * sizeof *picture->occlusion);
     return base_hash(hash, picture->visibility, picture->pixels * sizeof *picture->visibility);

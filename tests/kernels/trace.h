@@ -13,7 +13,7 @@ typedef struct trace_picture {
     size_t pixels;   /* width * height */
     uint32_t *id;    /* pixels each, row by row from the top left; owned */
     float *t, *u, *v;
-    uint32_t *occlusion; /* of kernels that trace shadows, else 0: bits of the last set of samples... */
+    uint32_t *occlusion; /* of kernels that trace shadows, else 0: bits of the last set of samples (of mft-msaa a hash of a pixel's samples)... */
     float *visibility;   /* ...and what is seen of the light */
     kernel_counts counts;
     uint64_t ops[LRB_OP_COUNT]; /* COUNT: the context's histogram; RECORD: that of the events; NATIVE: 0 */
