@@ -334,7 +334,8 @@ static base_status build_kdtree(run_result *r, base_error *err)
     if (status == BASE_OK && note.status != BASE_OK)
         fprintf(stderr, "lanetrace: note: %s: %s; the kd-tree was built anew\n", note.what, note.why);
     if (status == BASE_OK && params->empty_occluders)
-        status = kdtree_mark_occluders(r->kdtree, (const float(*)[3])origins, params->hard_shadows ? 2 : 1, err);
+        status = kdtree_mark_occluders(r->kdtree, (const float(*)[3])origins, params->hard_shadows ? 2 : 1,
+                                       params->cull_backface, err);
     return status;
 }
 

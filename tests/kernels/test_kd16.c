@@ -86,17 +86,29 @@ static void check_counts(const trace_picture *root, const trace_picture *entry, 
                  (unsigned long long)of(root, KERNEL_isect_tests), (unsigned long long)of(root, KERNEL_traversed_cells));
 }
 
+/* Empty occluders end searches early, and no hit is lost. */
+static void check_occluders(const stage *st, const scene_camera *camera, unsigned cull, const trace_picture *root, const char *what)
+{
+    kernel_params params = kernel_find("mlrta-primary")->defaults;
+    params.empty_occluders = 1;
+    trace_picture entry = run(st, "mlrta-primary", camera, cull, &params);
+    trace_assert_equal(root, &entry, what);
+    check_counts(root, &entry, what);
+    trace_free(&entry);
+}
+
 static void check_view(stage *st, const scene_camera *camera, unsigned cull)
 {
     char what[256];
     const scene_primary_rays rays = scene_camera_rays(camera, 1, 1);
-    assert_int_equal(kdtree_mark_occluders(st->kdtree, &rays.origin, 1, NULL), BASE_OK);
+    assert_int_equal(kdtree_mark_occluders(st->kdtree, &rays.origin, 1, cull, NULL), BASE_OK);
     snprintf(what, sizeof what, "%.60s, %s, cull_backface %u", st->s->name, camera->name, cull);
     trace_picture packets = run(st, "packet16-primary", camera, cull, NULL), root = run(st, "kd16-primary", camera, cull, NULL);
     trace_picture entry = run(st, "mlrta-primary", camera, cull, NULL);
     trace_assert_equal(&packets, &root, what);
     trace_assert_equal(&root, &entry, what);
     check_counts(&root, &entry, what);
+    check_occluders(st, camera, cull, &root, what);
     if (!cull)
         check_mailbox(st, camera, &root, what);
     trace_free(&packets);
@@ -255,10 +267,20 @@ static int blocked(const scene *s, const double light[3], const double d[3])
     return answer;
 }
 
+/* How far hit points are lifted off their surfaces: a ten-thousandth of the scene's diagonal (docs/kernels-mlrta.md). */
+static double lift_of(const kdtree *tree)
+{
+    double sum = 0;
+    for (int axis = 0; axis < 3; axis++)
+        sum += ((double)tree->max[axis] - (double)tree->min[axis]) * ((double)tree->max[axis] - (double)tree->min[axis]);
+    return 1e-4 * sqrt(sum);
+}
+
 /* The shadows of a picture against double arithmetic; returns how many pixels were decided. */
 static size_t check_shadows(const stage *st, const trace_picture *p, const scene_camera *camera)
 {
     oracle_ray *rays = calloc(p->pixels, sizeof *rays);
+    const double lift = lift_of(st->kdtree);
     size_t decided = 0;
     assert_non_null(rays);
     trace_rays(st->tree, camera, p->width, p->height, rays);
@@ -279,7 +301,7 @@ static size_t check_shadows(const stage *st, const trace_picture *p, const scene
         }
         for (int k = 0; k < 3; k++) {
             n[k] *= (facing > 0 ? -1 : 1) / sqrt(length);
-            d[k] = (double)rays[i].org[k] + (double)p->t[i] * (double)rays[i].dir[k] + 1e-3 * n[k] - light[k];
+            d[k] = (double)rays[i].org[k] + (double)p->t[i] * (double)rays[i].dir[k] + lift * n[k] - light[k];
             height += n[k] * d[k];
         }
         int dark = height > -1e-3 ? (height > 1e-3 ? 1 : -1) : blocked(st->s, light, d);
@@ -312,7 +334,8 @@ static void shadows__of_a_room__as_by_brute_force(void **state)
         m.shadow_packets = packets;
         trace_picture entry = run(&st, "mlrta-shadow", camera, 0, &m);
         trace_assert_equal(&root, &entry, "entry points of shadow rays");
-        assert_true(of(&entry, KERNEL_isect_tests) <= of(&other, KERNEL_isect_tests));
+        /* A leaf that no ray reaches, and that only the root's packets enter, may list a triangle that is hit outside of it. */
+        assert_true(100 * of(&entry, KERNEL_isect_tests) <= 101 * of(&other, KERNEL_isect_tests));
         assert_int_equal(of(&entry, KERNEL_rays), of(&root, KERNEL_rays));
         trace_free(&other);
         trace_free(&entry);
@@ -337,7 +360,7 @@ static void shadows__usual_scenes_hard_views__same_from_entry_points(void **stat
                 origins[0][axis] = rays.origin[axis];
                 origins[1][axis] = (float)st.s->light.point[axis];
             }
-            assert_int_equal(kdtree_mark_occluders(st.kdtree, (const float(*)[3])origins, 2, NULL), BASE_OK);
+            assert_int_equal(kdtree_mark_occluders(st.kdtree, (const float(*)[3])origins, 2, false, NULL), BASE_OK);
             trace_picture root = run(&st, "kd16-shadow", &v.camera[k], 0, NULL), entry = run(&st, "mlrta-shadow", &v.camera[k], 0, NULL);
             trace_assert_equal(&root, &entry, v.camera[k].name);
             trace_free(&root);

@@ -181,7 +181,7 @@ kdtree *trace_kdtree(const scene *s, const scene_camera *camera)
     options.jobs = 2;
     if (kdtree_build(s, &options, &tree, &err) != BASE_OK)
         fail_msg("%s: %s", err.what, err.why);
-    assert_int_equal(kdtree_mark_occluders(tree, &rays.origin, 1, NULL), BASE_OK);
+    assert_int_equal(kdtree_mark_occluders(tree, &rays.origin, 1, true, NULL), BASE_OK);
     return tree;
 }
 

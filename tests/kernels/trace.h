@@ -48,7 +48,8 @@ void trace_free(trace_picture *picture);
 /** The tree with a leaf limit; free it with bvh_destroy. Any failure fails the running test. */
 bvh *trace_tree(const scene *s, unsigned max_leaf);
 
-/** The kd-tree of a scene with a kernel's default parameters, its occluders marked for the camera; free it with kdtree_destroy. */
+/** The kd-tree of a scene with a kernel's default parameters, its occluders marked for the camera and rays
+    that do not see back faces; free it with kdtree_destroy. */
 kdtree *trace_kdtree(const scene *s, const scene_camera *camera);
 
 /* The tree that a kernel traverses; the other is NULL. */
