@@ -94,37 +94,52 @@ base_status picture_shaded(const run_result *r, report_image *out, base_error *e
     return status;
 }
 
-base_status picture_write_aov(const run_result *r, const char *path, base_error *err)
+/* What a pixel's results are made of: a plane each. */
+enum { AOV_FLOATS = 4, AOV_UINTS = 2 };
+
+static void fill_planes(const run_result *r, float *const planes[AOV_FLOATS], uint32_t *const numbers[AOV_UINTS])
 {
     const size_t width = r->options.width, pixels = width * r->options.height;
-    const bool shadows = r->job->shadows_host != NULL;
-    float *planes = malloc(4 * pixels * sizeof *planes);
-    uint32_t *prim = malloc(pixels * sizeof *prim);
+    for (size_t i = 0; i < pixels; i++) {
+        const unsigned x = (unsigned)(i % width), y = (unsigned)(i / width);
+        const job_pixel p = kernel_job_pixel(r->job, x, y);
+        const job_frame_tile *tile = &r->job->frame_host[p.tile];
+        planes[0][i] = tile->t[p.block][p.pixel];
+        planes[1][i] = tile->u[p.block][p.pixel];
+        planes[2][i] = tile->v[p.block][p.pixel];
+        planes[3][i] = visibility(r->job, p);
+        numbers[0][i] = tile->id[p.block][p.pixel];
+        numbers[1][i] = kernel_job_complexity(r->job, x, y);
+    }
+}
+
+base_status picture_write_aov(const run_result *r, const char *path, base_error *err)
+{
+    const size_t pixels = (size_t)r->options.width * r->options.height;
+    float *floats = malloc(AOV_FLOATS * pixels * sizeof *floats);
+    uint32_t *uints = malloc(AOV_UINTS * pixels * sizeof *uints);
     base_status status = BASE_ERR_NOMEM;
-    if (planes && prim) {
-        float *z = planes, *u = planes + pixels, *v = planes + 2 * pixels, *seen = planes + 3 * pixels;
-        for (size_t i = 0; i < pixels; i++) {
-            job_pixel p = kernel_job_pixel(r->job, (unsigned)(i % width), (unsigned)(i / width));
-            const job_frame_tile *tile = &r->job->frame_host[p.tile];
-            z[i] = tile->t[p.block][p.pixel];
-            u[i] = tile->u[p.block][p.pixel];
-            v[i] = tile->v[p.block][p.pixel];
-            prim[i] = tile->id[p.block][p.pixel];
-            seen[i] = visibility(r->job, p);
-        }
-        const report_channel channels[] = {
-            {"Z", REPORT_CHANNEL_FLOAT, z},
-            {"prim", REPORT_CHANNEL_UINT, prim},
-            {"U", REPORT_CHANNEL_FLOAT, u},
-            {"V", REPORT_CHANNEL_FLOAT, v},
-            {"visibility", REPORT_CHANNEL_FLOAT, seen},
+    if (floats && uints) {
+        float *planes[AOV_FLOATS] = {floats, floats + pixels, floats + 2 * pixels, floats + 3 * pixels};
+        uint32_t *numbers[AOV_UINTS] = {uints, uints + pixels};
+        report_channel channels[AOV_FLOATS + AOV_UINTS] = {
+            {"Z", REPORT_CHANNEL_FLOAT, planes[0]},
+            {"prim", REPORT_CHANNEL_UINT, numbers[0]},
+            {"U", REPORT_CHANNEL_FLOAT, planes[1]},
+            {"V", REPORT_CHANNEL_FLOAT, planes[2]},
         };
-        status = report_aov_write(path, (int)width, (int)r->options.height, channels, shadows ? 5 : 4, err);
+        int count = 4;
+        if (r->job->shadows_host)
+            channels[count++] = (report_channel){"visibility", REPORT_CHANNEL_FLOAT, planes[3]};
+        if (r->options.kernel->counters >> KERNEL_ep_cells & 1)
+            channels[count++] = (report_channel){"complexity", REPORT_CHANNEL_UINT, numbers[1]};
+        fill_planes(r, planes, numbers);
+        status = report_aov_write(path, (int)r->options.width, (int)r->options.height, channels, count, err);
     } else {
         base_fail(err, status, path, "out of memory for %zu pixels", pixels);
     }
-    free(planes);
-    free(prim);
+    free(floats);
+    free(uints);
     return status;
 }
 

@@ -24,7 +24,7 @@ base_status picture_lit(const run_result *result, const float *seen, report_imag
  */
 float *picture_visibility(const run_result *result, bool filtered, base_error *err);
 
-/** Write Z, prim, U, V and, of kernels with shadows, visibility (docs/interface.md) as an EXR file. */
+/** Write Z, prim, U, V and, of kernels with shadows, visibility, with entry points, complexity (docs/interface.md) as an EXR file. */
 base_status picture_write_aov(const run_result *result, const char *path, base_error *err);
 
 /**

@@ -40,7 +40,7 @@ static const struct argp_option option_table[] = {
     {"callgrind", KEY_CALLGRIND, "FILE", 0, "cycles by line for KCachegrind and callgrind_annotate", 3},
     {"registers", KEY_REGISTERS, NULL, 0, "the registers that the kernel needs, and what spills would cost, among the statistics", 3},
     {"image", KEY_IMAGE, "FILE", 0, "the rendered picture, in any format that OpenImageIO writes", 3},
-    {"aov", KEY_AOV, "FILE.exr", 0, "per-pixel results: Z, prim, U, V, with shadows also visibility", 3},
+    {"aov", KEY_AOV, "FILE.exr", 0, "per-pixel results: Z, prim, U, V, with shadows also visibility, with entry points complexity", 3},
     {"heatmap", KEY_HEATMAP, "FILE", 0, "simulated cycles per pixel, as a picture", 3},
     {"heatmap-of", KEY_HEATMAP_OF, "COUNTER", 0, "make --heatmap of a counter instead, as aabb_tests", 3},
     {"trace", KEY_TRACE, "FILE.ltr", 0, "record the event stream, for lanetrace replay", 3},

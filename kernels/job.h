@@ -116,6 +116,7 @@ typedef struct kernel_job {
     float (*normals_host)[4]; /* unit normals by triangle id, the fourth float 0 */
     job_shadow_tile *shadows_host;
     job_cells *cells_host; /* two */
+    uint32_t (*complexity_host)[16]; /* of a kd-tree, by tile of the frame and block; kernel_job_complexity */
     job_constants *light_constants_host; /* NULL: there are no hard shadows */
     bvh_triangle *records_host; /* of the tree */
     const bvh *tree;            /* one of the two; not owned: must outlive the job */
@@ -168,6 +169,17 @@ static inline job_pixel kernel_job_pixel(const kernel_job *job, unsigned x, unsi
         .unit = y / edge * units_x + x / edge,
         .region = y % edge / (edge / 4) * 4 + x % edge / (edge / 4),
     };
+}
+
+/**
+ * The complexity of what the packet of image pixel (x, y) saw (Reshetov, Soupikov and Hurley 2005, 4.2): nodes of the subtree that it was
+ * traced from, 1 for a leaf, 0 if its tile could hit nothing. Known once the pixel is traced, of kernels that search entry
+ * points; of others 0. A look-up in kdtree.sizes, made by the host and charged to no machine.
+ */
+static inline uint32_t kernel_job_complexity(const kernel_job *job, unsigned x, unsigned y)
+{
+    const job_pixel p = kernel_job_pixel(job, x, y);
+    return job->complexity_host ? job->complexity_host[p.tile][p.block] : 0;
 }
 
 /** Direction of the primary ray of image pixel (x, y), the bits that the kernels trace. */

@@ -173,24 +173,34 @@ static float dot(const float a[3], const float b[3])
     return fmaf(a[2], b[2], fmaf(a[1], b[1], a[0] * b[0]));
 }
 
-/* Where shadow rays of a pixel start, and whether any of the light's corners is above the surface there. */
-static bool start_of(const kernel_job *job, unsigned x, unsigned y, float org[3])
+/* The lifted hit point of a pixel, and its surface's normal on the viewer's side; false without a hit. */
+static bool lifted_hit_of(const kernel_job *job, unsigned x, unsigned y, float point[3], float n[3])
 {
     const job_constants *k = job->constants_host;
     const job_pixel p = kernel_job_pixel(job, x, y);
     const job_frame_tile *tile = &job->frame_host[p.tile];
     const uint32_t id = tile->id[p.block][p.pixel];
-    float d[3], n[3], corner[3], highest = -INFINITY;
+    float d[3];
     if (id == JOB_NO_HIT)
         return false;
     kernel_job_direction(job, x, y, d);
-    memcpy(n, job->normals_host[id], sizeof n);
-    const float side = dot(n, d) > 0.0f ? -1.0f : 1.0f;
+    const float side = dot(job->normals_host[id], d) > 0.0f ? -1.0f : 1.0f;
     for (int axis = 0; axis < 3; axis++) {
-        n[axis] *= side;
-        org[axis] = fmaf(n[axis], k->light.lift, fmaf(d[axis], tile->t[p.block][p.pixel], k->origin_box[axis]));
-        corner[axis] = k->light.corner[axis] - org[axis];
+        n[axis] = job->normals_host[id][axis] * side;
+        point[axis] = fmaf(n[axis], k->light.lift, fmaf(d[axis], tile->t[p.block][p.pixel], k->origin_box[axis]));
     }
+    return true;
+}
+
+/* Where shadow rays of a pixel start, and whether any of the light's corners is above the surface there. */
+static bool start_of(const kernel_job *job, unsigned x, unsigned y, float org[3])
+{
+    const job_constants *k = job->constants_host;
+    float n[3], corner[3], highest = -INFINITY;
+    if (!lifted_hit_of(job, x, y, org, n))
+        return false;
+    for (int axis = 0; axis < 3; axis++)
+        corner[axis] = k->light.corner[axis] - org[axis];
     if (!(dot(corner, k->light.normal) < 0.0f))
         return false;
     const float *along[3] = {k->light.u, k->light.uv, k->light.v};
@@ -213,4 +223,16 @@ bool job_shadow_ray_of(const kernel_job *job, unsigned x, unsigned y, unsigned p
         out->dir[axis] = corner + set->delta[axis][sample];
     }
     return true;
+}
+
+bool job_hard_shadow_ray_of(const kernel_job *job, unsigned x, unsigned y, job_shadow_ray *out)
+{
+    float end[3], n[3];
+    if (!lifted_hit_of(job, x, y, end, n))
+        return false;
+    for (int axis = 0; axis < 3; axis++) {
+        out->org[axis] = job->constants_host->light.point[axis];
+        out->dir[axis] = end[axis] - out->org[axis];
+    }
+    return dot(n, out->dir) < 0.0f;
 }

@@ -10,7 +10,7 @@ from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 HAVE_GNUPLOT = shutil.which('gnuplot') is not None
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
 SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-table2', 'mft-light-size', 'mft-quality', 'mft-prediction', 'stability',
-          'mlrta-table1', 'mlrta-table2', 'mlrta-table3', 'mlrta-tiles', 'mlrta-culling', 'mlrta-params']
+          'mlrta-table1', 'mlrta-table2', 'mlrta-table3', 'mlrta-tiles', 'mlrta-culling', 'mlrta-params', 'mlrta-adaptive']
 
 
 def own_scene(folder):
@@ -347,6 +347,24 @@ def mlrta_params__builtin_scene__each_setting_as_run_alone(folder):
     n = counts_of('kd16-primary', *ROOMS, '--param', 'covered_planes=0')
     assert abs(by_setting['covered_planes=0']['cells, no MLRT'] - n['traversed_cells'] / (32 * 24)) < 0.00501
     assert by_setting['sf=4 mts=8']['cells, no MLRT'] == defaults['cells, no MLRT'] and defaults['MLRT, against defaults'] == 0
+
+
+def mlrta_adaptive__builtin_scene__costs_of_runs_alone_and_no_more_rays_than_even(folder):
+    where = ['--scene', 'builtin:rooms-804', '--size', '96x64']
+    rows = report(folder, 'mlrta-adaptive', *where, *([] if HAVE_IMAGES else ['--no-pictures']))[
+        'Samples by complexity against even samples, at equal error of the picture']
+    for samples, size, its in (('1', '96x64', '16'), ('4', '192x128', '32')):
+        even, root, steps, error = [row for row in rows if row['as good as'] == samples]
+        alone = stats_of('mlrta-primary', '--scene', 'builtin:rooms-804', '--size', size, '--model', 'issue', '--param', 'its=' + its,
+                         *(['--param', 'sf=4', '--param', 'mts=8'] if samples == '1' else []))
+        assert even['rays'] == float(samples) and even['samples given'] == 'evenly'
+        assert abs(even['cycles'] - alone['cycles']['total'] / (96 * 64)) < 0.06
+        assert all(row['RMSE'] <= even['RMSE'] for row in (root, steps, error))
+        assert error['rays'] < even['rays'] and steps['rays'] <= even['rays'] and root['by chance'] > root['RMSE']
+    for name in ('rooms-804-mlrta-adaptive', 'rooms-804-mlrta-complexity', 'rooms-804-mlrta-samples'):
+        assert os.path.exists('%s/out/%s.png' % (folder, name)) == HAVE_IMAGES
+    fails(['report', 'mlrta-adaptive', '--size', '33x32', '--out', folder + '/no'], '33x32')
+    fails(['report', 'mlrta-adaptive', '--size', '4096x32', '--out', folder + '/no'], '2048')
 
 
 def mlrta_suites__own_scene__all_forms(folder):

@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include "scene/builtin.h"
+#include "tests/kernels/accel/soup.h"
 #include "tests/kernels/trace.h"
 #include "tests/kernels/views.h"
 
@@ -370,6 +371,75 @@ static void shadows__usual_scenes_hard_views__same_from_entry_points(void **stat
     }
 }
 
+/* The job of mlrta-primary on a scene, with its whole picture traced. */
+static kernel_job *traced_job(const kdtree *tree, const scene_camera *camera, unsigned its)
+{
+    kernel_params p = kernel_find("mlrta-primary")->defaults;
+    lrb_ctx *c;
+    p.its = its;
+    kernel_job *job = trace_job(&(trace_request){.kernel = "mlrta-primary", .kdtree = tree, .camera = camera, .width = picture_size,
+                                                 .height = picture_size, .params = &p});
+    assert_int_equal(lrb_ctx_create(NULL, NULL, &c, NULL), BASE_OK);
+    for (uint32_t tile = 0; tile < kernel_job_tiles(job); tile++) {
+        kernel_counts n = {{0}};
+        kernel_find("mlrta-primary")->tile[LRB_NATIVE](c, job, tile, &n);
+    }
+    lrb_ctx_destroy(&c);
+    return job;
+}
+
+/* A room: what a packet sees is no more complex than the tree, and something where it has hit anything. */
+static void complexity__of_a_room__at_most_the_tree(void **state)
+{
+    stage st = stage_create("builtin:rooms-804");
+    kernel_job *job = traced_job(st.kdtree, &st.s->cameras[0], 3);
+    unsigned smaller = 0;
+    (void)state;
+    for (unsigned i = 0; i < picture_size * picture_size; i++) {
+        const uint32_t nodes = kernel_job_complexity(job, i % picture_size, i / picture_size);
+        const job_pixel p = kernel_job_pixel(job, i % picture_size, i / picture_size);
+        assert_true(nodes <= st.kdtree->sizes[0]);
+        assert_true(nodes > 0 || job->frame_host[p.tile].id[p.block][p.pixel] == JOB_NO_HIT);
+        smaller += nodes < st.kdtree->sizes[0];
+    }
+    assert_true(smaller > picture_size * picture_size / 4);
+    kernel_job_destroy(&job);
+    stage_destroy(&st);
+}
+
+/* A wall that all rays hit, much behind it: a leaf is all that is seen, but of a tile that meets the wall in several cells. Without the
+   wall there are tiles that see more; away from all nothing is seen. */
+static void complexity__wall_no_wall_nothing__mostly_leaves_more_none(void **state)
+{
+    static const double up[3] = {0, 1, 0}, eye[3] = {0.1, 0.2, 4}, ahead[3] = {1, 2, 0}, away[3] = {1, 2, 8};
+    scene s = soup_random(7, 60, 0.5), wall = soup_random(7, 61, 0.5);
+    const scene_camera to = scene_camera_look_at("to", eye, ahead, up, 0.3), from = scene_camera_look_at("from", eye, away, up, 0.3);
+    const float corners[3][3] = {{-90, -60, 2}, {90, -60, 2}, {0, 90, 2}};
+    const struct {
+        const scene *s;
+        const scene_camera *camera;
+        unsigned least;
+    } cases[3] = {{&wall, &to, 1}, {&s, &to, 0}, {&s, &from, 0}};
+    unsigned leaves[3] = {0, 0, 0}, larger[3] = {0, 0, 0};
+    (void)state;
+    memcpy(wall.triangles[60].v, corners, sizeof corners);
+    for (int i = 0; i < 3; i++) {
+        kdtree *tree = trace_kdtree(cases[i].s, cases[i].camera);
+        kernel_job *job = traced_job(tree, cases[i].camera, 0);
+        for (unsigned k = 0; k < picture_size * picture_size; k++) {
+            const uint32_t nodes = kernel_job_complexity(job, k % picture_size, k / picture_size);
+            assert_in_range(nodes, cases[i].least, UINT32_MAX);
+            leaves[i] += nodes == 1;
+            larger[i] += nodes > 1;
+        }
+        kernel_job_destroy(&job);
+        kdtree_destroy(&tree);
+    }
+    assert_true(leaves[0] > picture_size * picture_size / 2 && larger[1] > 0 && larger[2] + leaves[2] == 0);
+    soup_free(&s);
+    soup_free(&wall);
+}
+
 /* The levels and any number of host threads agree, counts and events too; each unit of work is on its own. */
 static void mlrta__levels_and_threads__same_results(void **state)
 {
@@ -407,6 +477,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(mlrta__corner_rays_only__hits_are_lost),
         cmocka_unit_test(shadows__of_a_room__as_by_brute_force),
         cmocka_unit_test(shadows__usual_scenes_hard_views__same_from_entry_points),
+        cmocka_unit_test(complexity__of_a_room__at_most_the_tree),
+        cmocka_unit_test(complexity__wall_no_wall_nothing__mostly_leaves_more_none),
         cmocka_unit_test(mlrta__levels_and_threads__same_results),
     };
     picture_size = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 100;

@@ -15,6 +15,7 @@
 #include "reports/views/mft_quality.h"
 #include "reports/views/mft_table1.h"
 #include "reports/views/mft_table2.h"
+#include "reports/views/mlrta_adaptive.h"
 #include "reports/views/model_speeds.h"
 
 /* A cell of a table's JSON. */
@@ -279,6 +280,60 @@ static void models__median_and_worst__by_size(void **state)
     json_decref(table);
 }
 
+/* Two tiles of one pixel: one simple and without error, one complex, whose error falls as its samples grow. */
+static mlrta_adaptive_scene two_tiles(mlrta_adaptive_tile tiles[2], unsigned char rates[2])
+{
+    static const double complexity[2] = {1, 100}, error[2] = {0, 16};
+    for (int i = 0; i < 2; i++) {
+        tiles[i].complexity = complexity[i];
+        for (int rate = 0; rate < MLRTA_RATES; rate++) {
+            tiles[i].rays[rate] = mlrta_rate_samples[rate];
+            tiles[i].cycles[rate] = 10 * mlrta_rate_samples[rate];
+            tiles[i].error[rate] = error[i] / mlrta_rate_samples[rate];
+        }
+    }
+    return (mlrta_adaptive_scene){"two", 2, tiles, rates, 2};
+}
+
+static void adaptive__simple_and_complex_tile__samples_where_the_error_is(void **state)
+{
+    mlrta_adaptive_tile tiles[2];
+    unsigned char rates[2];
+    const mlrta_adaptive_scene scene = two_tiles(tiles, rates);
+    (void)state;
+    for (int way = MLRTA_BY_ROOT; way < MLRTA_WAYS; way++) {
+        const mlrta_sampling s = mlrta_choose_samples(&scene, (mlrta_way)way, 1);
+        assert_true(rates[0] == 0 && rates[1] == 1);
+        assert_true(s.rays == (0.25 + 1) / 2 && s.cycles == 10 * s.rays && fabs(s.rmse - sqrt(16.0 / 6)) < 1e-12);
+        assert_true(fabs(s.by_chance - sqrt((64.0 / 2 + 16.0 / 2) / 6)) < 1e-12 && s.share[0] == 0.5 && s.share[1] == 0.5);
+    }
+    tiles[0].complexity = 100; /* the measure says nothing: only the error does */
+    mlrta_choose_samples(&scene, MLRTA_BY_STEPS, 1);
+    assert_true(rates[0] == 1 && rates[1] == 1);
+    mlrta_choose_samples(&scene, MLRTA_BY_ERROR, 1);
+    assert_true(rates[0] == 0 && rates[1] == 1);
+}
+
+static void adaptive__table_and_plot__saved_rays_and_published(void **state)
+{
+    mlrta_adaptive_tile tiles[2];
+    unsigned char rates[2];
+    mlrta_adaptive_plot plot;
+    const mlrta_adaptive_scene scene = two_tiles(tiles, rates);
+    json_t *t = json_of(mlrta_adaptive_table(&scene, 1, "caption"));
+    (void)state;
+    assert_int_equal(json_array_size(json_object_get(t, "rows")), 2 * MLRTA_WAYS);
+    assert_true(number(t, 0, "rays") == 1 && json_is_null(cell(t, 0, "rays saved")));
+    assert_true(number(t, 1, "rays saved") == 37.5 && number(t, 1, "cycles saved") == 37.5 && number(t, 1, "tiles with 1/4") == 50);
+    assert_true(number(t, MLRTA_WAYS, "rays") == 4 && fabs(number(t, MLRTA_WAYS + 2, "rays saved") - 100 * (1 - 4.25 / 8)) < 0.051);
+    assert_non_null(strstr(json_string_value(json_array_get(json_object_get(t, "notes"), 0)), "50%"));
+    json_decref(t);
+    mlrta_adaptive_plot_of(&scene, &plot);
+    assert_true(plot.series[0].count == MLRTA_RATES && plot.rays[0][3] == 16 && plot.rays[1][0] == 0.25);
+    for (int i = 1; i < MLRTA_ADAPTIVE_POINTS; i++)
+        assert_true(plot.rays[1][i] >= plot.rays[1][i - 1] && plot.rmse[2][i] <= plot.rmse[2][i - 1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -292,6 +347,8 @@ int main(void)
         cmocka_unit_test(light_size__two_scenes__ratios_and_a_series_for_each),
         cmocka_unit_test(quality__errors__by_region_of_the_reference_and_hits_only),
         cmocka_unit_test(quality__tables_and_points__rows_in_their_order),
+        cmocka_unit_test(adaptive__simple_and_complex_tile__samples_where_the_error_is),
+        cmocka_unit_test(adaptive__table_and_plot__saved_rays_and_published),
         cmocka_unit_test(models__median_and_worst__by_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
