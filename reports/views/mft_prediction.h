@@ -44,6 +44,9 @@ report_table *mft_prediction_summary(const mft_measured *m, const char *caption)
 /** Rows that the reading with the least median error is far off in, and the event behind it. NULL if out of memory. */
 report_table *mft_prediction_far(const mft_measured *m);
 
+/** By machine and algorithm: what the published cycles leave for an AABB test of each scene. NULL if out of memory. */
+report_table *mft_prediction_left(const mft_measured *m, const char *caption);
+
 /** What an event costs, over all scenes and in the least and dearest of them. NULL if out of memory. */
 report_table *mft_prediction_costs(const mft_measured *m, const char *caption);
 

@@ -105,7 +105,9 @@ static void prediction__far_row__the_event_that_makes_it_so(void **state)
     mft_events events[8];
     make_events(events, cost);
     const mft_measured m = {machines, 2, events, 8, 2};
-    json_t *far = json_of(mft_prediction_far(&m));
+    json_t *far = json_of(mft_prediction_far(&m)), *left = json_of(mft_prediction_left(&m, NULL));
+    assert_true(fabs(number(left, 0, "T-Rex (69K tri)") - 94.1e6 / 1218e3) < 0.06 && number(left, 0, "a box costs here") == 1000);
+    json_decref(left);
     assert_int_equal(json_array_size(json_object_get(far, "rows")), 8);
     assert_string_equal(json_string_value(cell(far, 0, "most cycles are for")), "AABB test, a box");
     assert_true(fabs(number(far, 0, "cost that would be right") - 94.1e6 / 1218e3) < 0.06);
