@@ -175,6 +175,10 @@ static base_status map_segments(kernel_job *job, base_error *err)
         status = lrb_memory_map(&memory, "normals", job->normals_host, job->normals.size, &job->normals, err);
     if (status == BASE_OK)
         status = lrb_memory_map(&memory, "shadows", job->shadows_host, job->shadows.size, &job->shadows, err);
+    if (status == BASE_OK && job->rows_host)
+        status = lrb_memory_map(&memory, "filter constants", job->filter_host, sizeof *job->filter_host, &job->filter, err);
+    if (status == BASE_OK && job->rows_host)
+        status = lrb_memory_map(&memory, "pixel rows", job->rows_host, job->rows.size, &job->rows, err);
     return status;
 }
 

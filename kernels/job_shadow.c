@@ -122,6 +122,40 @@ static bool create_frame(kernel_job *job)
     return true;
 }
 
+/* The limits of the filter are ours: the paper gives none. */
+static void fill_filter(job_filter *f)
+{
+    memset(f, 0, sizeof *f);
+    for (int i = 0; i < 16; i++)
+        f->reciprocal[i] = 1.0f / (float)(i + 1);
+    f->least_cosine = 0.95f;
+    f->most_step = 0.02f;
+    f->infinity = INFINITY;
+    f->half = 0.5f;
+    f->one = 1.0f;
+    f->absolute = 0x7fffffffu;
+}
+
+/* Rows of pixels without hits: the window of the filter reaches a pixel to the left of the image and above it, two to the right and below. */
+static bool create_rows(kernel_job *job)
+{
+    const size_t rows = job->tiles_y * JOB_TILE_PIXELS + 3, count = rows * (job->tiles_x + 2);
+    job->filtered = job->params.filter;
+    job->rows.size = count * sizeof *job->rows_host;
+    job->filter_host = aligned_alloc(64, sizeof *job->filter_host);
+    job->rows_host = aligned_alloc(64, job->rows.size);
+    if (!job->filter_host || !job->rows_host)
+        return false;
+    fill_filter(job->filter_host);
+    memset(job->rows_host, 0, job->rows.size);
+    for (size_t i = 0; i < count; i++)
+        for (int x = 0; x < 16; x++) {
+            job->rows_host[i].depth[x] = INFINITY;
+            job->rows_host[i].filtered[x] = 1.0f;
+        }
+    return true;
+}
+
 static base_status create_hard(kernel_job *job, base_error *err)
 {
     if (create_frame(job))
@@ -145,7 +179,7 @@ base_status job_shadow_create(kernel_job *job, const scene_light *light, base_er
     job->sample_mask = samples < 16 ? four_samples : 0xffffu;
     job->samples.size = sets * sizeof *job->samples_host;
     job->samples_host = aligned_alloc(64, job->samples.size);
-    if (create_frame(job) && points && job->samples_host) {
+    if (create_frame(job) && create_rows(job) && points && job->samples_host) {
         light_samples_fill(job->params.net, job->params.assignment, sets, points);
         fill_samples(job, points, sets);
     } else {
@@ -160,6 +194,8 @@ void job_shadow_destroy(kernel_job *job)
     free(job->samples_host);
     free(job->normals_host);
     free(job->shadows_host);
+    free(job->filter_host);
+    free(job->rows_host);
 }
 
 unsigned job_shadow_set(const kernel_job *job, unsigned pixel, unsigned pass)

@@ -35,7 +35,8 @@ enum {
     SCRATCH_LANE_PLANE = SCRATCH_LANE_EDGES + 576,   /* 64: distance of its plane */
     SCRATCH_INTERVALS = SCRATCH_LANE_PLANE + 64,     /* 2 x 3 x 64: intervals of the directions, widened: smallest, largest */
     SCRATCH_RECTANGLE = SCRATCH_INTERVALS + 384,     /* 4 x 64: part of the light that is left: smallest and largest a, the same of b */
-    SCRATCH_END = SCRATCH_RECTANGLE + 256
+    SCRATCH_SHADING = SCRATCH_RECTANGLE + 256,       /* 64: what the light's point would lend the hit points */
+    SCRATCH_END = SCRATCH_SHADING + 64
 };
 
 #endif

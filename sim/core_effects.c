@@ -129,12 +129,12 @@ void core_tell_op(sim_core *s, core_thread *h, const lrb_event *e, bool joined)
 
 void core_tell(sim_core *s, const core_thread *h, const lrb_event *e)
 {
-    const uint64_t cycle = s->now - s->began;
+    const uint64_t cycle = s->now - s->gap;
     sim_issued issued = {.event = e, .cycle = cycle, .ready = cycle, .thread = (unsigned)(h - s->thread)};
     if (!(s->price[e->op].flags & SIM_PRICE_MARKER)) {
         const core_late_result *late = &h->late[h->next & (s->late_window - 1)];
         const bool is_late = late->number == h->next && late->arrival > s->now;
-        issued.ready = (is_late ? late->arrival : s->now) - s->began + sim_time_of(s->price[e->op].latency.ready[SIM_CONSUMER_PLAIN]);
+        issued.ready = (is_late ? late->arrival : s->now) - s->gap + sim_time_of(s->price[e->op].latency.ready[SIM_CONSUMER_PLAIN]);
         issued.in_v = s->told == s->now; /* two ops of a cycle are of one thread */
         s->told = s->now;
     }

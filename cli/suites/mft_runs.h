@@ -24,6 +24,9 @@ run_options mft_run_options(const suite *s, mft_algorithm algorithm);
  */
 base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err);
 
+/** Cycles of a run without those of the filter, which the paper reports apart. */
+uint64_t mft_cycles(const run_result *result);
+
 /** What a run has found, as a row of the table; `scene_name` must live as long as the row. */
 mft_row mft_row_of(const run_result *result, const char *scene_name, mft_algorithm algorithm);
 

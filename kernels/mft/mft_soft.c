@@ -11,7 +11,7 @@
 #undef LRB_SOURCE
 #define LRB_SOURCE KERNEL_SOURCE_MFT_SOFT
 
-extern kernel_tile_fn KERNEL_TILE_FN(mft_primary);
+extern kernel_tile_fn KERNEL_TILE_FN(mft_primary), KERNEL_TILE_FN(visibility_filter);
 
 typedef struct mft_soft {
     shadow16 w;
@@ -136,6 +136,10 @@ LRB_INLINE void mft_soft_block(lrb_ctx *c, const traversal16 *t, mft_soft *g)
 
 LRB_INLINE void mft_soft_tile(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n)
 {
+    if (tile >= kernel_job_first_pass(job)) {
+        KERNEL_TILE_FN(visibility_filter)(c, job, tile - kernel_job_first_pass(job), n);
+        return;
+    }
     KERNEL_TILE_FN(mft_primary)(c, job, tile, n);
     mft_soft g = {.w = shadow16_of(c, job, tile, n), .shrink = job->params.shrink};
     traversal16 t = traversal16_of(job, g.w.scratch, mft_soft_leaf, &g, n);

@@ -260,6 +260,7 @@ def regress__stored_baseline__equal_and_differences_named(folder):
 def regress__project_baselines__equal(folder):
     result = run('regress')
     assert result.returncode == 0, result.stdout + result.stderr
+    assert 'mft-table1-long' not in result.stdout and 'mft-table1-long' in run('regress', '--help').stdout
 
 
 def lists__text_and_json__complete(folder):

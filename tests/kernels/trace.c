@@ -27,6 +27,7 @@ typedef struct trace_run_state {
     kernel_tile_fn *tile;
     trace_worker *workers;
     uint64_t *tile_hashes;
+    size_t pass; /* first tile of it */
 } trace_run_state;
 
 /* Hash of a stream in which an op stands as its name and form, not as its number: a new row of the table changes no hash. */
@@ -61,15 +62,17 @@ static void trace_tile(void *user, size_t piece, unsigned worker)
 {
     trace_run_state *r = user;
     trace_worker *w = &r->workers[worker];
+    const size_t tile = r->pass + piece;
     w->tile_hash = BASE_HASH_START;
     lrb_ctx_begin(w->c);
-    r->tile(w->c, r->job, (uint32_t)piece, &w->counts);
+    r->tile(w->c, r->job, (uint32_t)tile, &w->counts);
     lrb_ctx_end(w->c);
-    r->tile_hashes[piece] = w->tile_hash;
+    r->tile_hashes[tile] = w->tile_hash;
 }
 
 static void gather_pixels(const kernel_job *job, trace_picture *picture)
 {
+    picture->soft = job->rows_host != NULL;
     for (unsigned y = 0; y < picture->height; y++)
         for (unsigned x = 0; x < picture->width; x++) {
             size_t i = (size_t)y * picture->width + x;
@@ -83,6 +86,10 @@ static void gather_pixels(const kernel_job *job, trace_picture *picture)
                 continue;
             picture->occlusion[i] = job->shadows_host[p.tile].occlusion[p.block][p.pixel];
             picture->visibility[i] = job->shadows_host[p.tile].visibility[p.block][p.pixel];
+            if (!picture->soft)
+                continue;
+            picture->filtered[i] = kernel_job_row(job, x, y)->filtered[x % 16];
+            picture->lit[i] = kernel_job_row(job, x, y)->lit[x % 16];
         }
 }
 
@@ -105,7 +112,9 @@ trace_picture trace_picture_create(unsigned width, unsigned height)
     p.v = calloc(p.pixels, sizeof *p.v);
     p.occlusion = calloc(p.pixels, sizeof *p.occlusion);
     p.visibility = calloc(p.pixels, sizeof *p.visibility);
-    assert_true(p.id && p.t && p.u && p.v && p.occlusion && p.visibility);
+    p.filtered = calloc(p.pixels, sizeof *p.filtered);
+    p.lit = calloc(p.pixels, sizeof *p.lit);
+    assert_true(p.id && p.t && p.u && p.v && p.occlusion && p.visibility && p.filtered && p.lit);
     return p;
 }
 
@@ -136,7 +145,9 @@ trace_picture trace_run(const trace_request *request)
     assert_true(r.workers && r.tile_hashes);
     for (unsigned i = 0; i < request->jobs; i++)
         assert_int_equal(lrb_ctx_create(take_events, &r.workers[i], &r.workers[i].c, NULL), BASE_OK);
-    base_parallel_for(request->jobs, kernel_job_tiles(job), trace_tile, &r);
+    base_parallel_for(request->jobs, kernel_job_first_pass(job), trace_tile, &r);
+    r.pass = kernel_job_first_pass(job);
+    base_parallel_for(request->jobs, kernel_job_tiles(job) - r.pass, trace_tile, &r);
     picture.events_hash = base_hash(BASE_HASH_START, r.tile_hashes, kernel_job_tiles(job) * sizeof *r.tile_hashes);
     for (unsigned i = 0; i < request->jobs; i++) {
         gather_worker(&picture, &r.workers[i], request->level);
@@ -157,6 +168,8 @@ void trace_free(trace_picture *picture)
     free(picture->v);
     free(picture->occlusion);
     free(picture->visibility);
+    free(picture->filtered);
+    free(picture->lit);
     *picture = (trace_picture){0};
 }
 
@@ -257,7 +270,8 @@ static int pixel_equal(const trace_picture *a, const trace_picture *b, size_t i)
 {
     return a->id[i] == b->id[i] && memcmp(&a->t[i], &b->t[i], 4) == 0 && memcmp(&a->u[i], &b->u[i], 4) == 0 &&
            memcmp(&a->v[i], &b->v[i], 4) == 0 && a->occlusion[i] == b->occlusion[i] &&
-           memcmp(&a->visibility[i], &b->visibility[i], 4) == 0;
+           memcmp(&a->visibility[i], &b->visibility[i], 4) == 0 && memcmp(&a->filtered[i], &b->filtered[i], 4) == 0 &&
+           memcmp(&a->lit[i], &b->lit[i], 4) == 0;
 }
 
 trace_difference trace_compare(const trace_picture *a, const trace_picture *b)
@@ -291,5 +305,9 @@ uint64_t trace_hash(const trace_picture *picture)
     if (!picture->counts.n[KERNEL_rays_shadow])
         return hash;
     hash = base_hash(hash, picture->occlusion, picture->pixels * sizeof *picture->occlusion);
-    return base_hash(hash, picture->visibility, picture->pixels * sizeof *picture->visibility);
+    hash = base_hash(hash, picture->visibility, picture->pixels * sizeof *picture->visibility);
+    if (!picture->soft)
+        return hash;
+    hash = base_hash(hash, picture->filtered, picture->pixels * sizeof *picture->filtered);
+    return base_hash(hash, picture->lit, picture->pixels * sizeof *picture->lit);
 }

@@ -2,6 +2,7 @@
 #ifndef TESTS_KERNELS_TRACE_H
 #define TESTS_KERNELS_TRACE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -10,11 +11,13 @@
 
 typedef struct trace_picture {
     unsigned width, height;
+    bool soft;       /* of a kernel with soft shadows */
     size_t pixels;   /* width * height */
     uint32_t *id;    /* pixels each, row by row from the top left; owned */
     float *t, *u, *v;
     uint32_t *occlusion; /* of kernels that trace shadows, else 0: bits of the last set of samples... */
     float *visibility;   /* ...and what is seen of the light */
+    float *filtered, *lit; /* of soft shadows, else 0: visibility as the filter leaves it, and times the shading */
     kernel_counts counts;
     uint64_t ops[LRB_OP_COUNT]; /* COUNT: the context's histogram; RECORD: that of the events; NATIVE: 0 */
     uint64_t idle_lanes;        /* likewise */
