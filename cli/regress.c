@@ -26,8 +26,8 @@ typedef struct suite {
 static const char *const mft_scenes[] = {"builtin:creature-69k", "builtin:fern-212k", "builtin:hall-60k", "builtin:forest-174k", NULL};
 
 static const suite suites[] = {
-    {"mft-primary", {"packet16-primary", "mft-primary"}, 256, NULL, NULL, NULL},
-    {"mft-soft", {"packet16-soft", "mft-soft"}, 32, NULL, NULL, NULL},
+    {"mft-primary", {"packet16-primary", "mft-primary", "packet256-primary"}, 256, NULL, NULL, NULL},
+    {"mft-soft", {"packet16-soft", "mft-soft", "packet256-soft"}, 32, NULL, NULL, NULL},
     {"mlrta-primary", {"kd16-primary", "mlrta-primary"}, 128, NULL, NULL, NULL},
     {"mlrta-shadow", {"kd16-shadow", "mlrta-shadow"}, 64, NULL, NULL, NULL},
     {"mft-table1-long", {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft"}, 1024, mft_scenes, "hall-60k", "mft-primary"},
@@ -63,7 +63,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp argp = {
     option_table, parse, "[SUITE...]",
     "Measure the suites (all but the long ones, if none is named) and compare every count, op and cycle with the stored baseline.\v"
-    "Exit code 1 if anything differs. Suites, on the three small indoor scenes, on larrabee and knc: mft-primary and mft-soft, packets and frusta, "
+    "Exit code 1 if anything differs. Suites, on the three small indoor scenes, on larrabee and knc: mft-primary and mft-soft, packets, large packets and frusta, "
     "primary rays at 256x256, soft shadows at 32x32 with every way to shrink frusta; mlrta-primary and mlrta-shadow, packets through the "
     "kd-tree from its root and from entry points, at 128x128 and, with hard shadows, 64x64. Measured only if named: mft-table1-long, the "
     "counts of 'lanetrace report mft-table1' at 1024x1024 on its scenes, and the cycles of one of its rows: minutes.",

@@ -7,8 +7,10 @@ const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal"
 /* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count, mft_primary_record and mft_primary_annotated */
 #define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record, name##_annotated
 KERNEL_TILES(packet16_primary);
+KERNEL_TILES(packet256_primary);
 KERNEL_TILES(mft_primary);
 KERNEL_TILES(packet16_soft);
+KERNEL_TILES(packet256_soft);
 KERNEL_TILES(mft_soft);
 KERNEL_TILES(kd16_primary);
 KERNEL_TILES(kd16_shadow);
@@ -61,6 +63,17 @@ const kernel_info *kernel_list(size_t *count)
             .annotated = packet16_primary_annotated,
         },
         {
+            .name = "packet256-primary",
+            .summary = "primary rays in groups of 16 packets of 4x4 through the shallow BVH of mft-primary: the MFT paper's other reference",
+            .paper = "Benthin and Wald 2009, 5.2",
+            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16, .light_scale = 1},
+            .counters = tracing_counters | BIT(aabb_group_tests) | BIT(units_groups) | BIT(units_packets),
+            .params = tracing_params,
+            .phases = tracing_phases,
+            .tile = {packet256_primary_native, packet256_primary_count, packet256_primary_record},
+            .annotated = packet256_primary_annotated,
+        },
+        {
             .name = "mft-primary",
             .summary = "primary rays in groups of 16 frusta of 4x4 through a shallow BVH: multi-frusta tracing",
             .paper = "Benthin and Wald 2009, 4 and appendix A: P-Frusta",
@@ -81,6 +94,18 @@ const kernel_info *kernel_list(size_t *count)
             .phases = tracing_phases | soft_phases,
             .tile = {packet16_soft_native, packet16_soft_count, packet16_soft_record},
             .annotated = packet16_soft_annotated,
+        },
+        {
+            .name = "packet256-soft",
+            .summary = "soft shadows in groups of 16 hit points with a packet of 16 rays each, through the shallow BVH of mft-soft: the MFT paper's other reference",
+            .paper = "Benthin and Wald 2009, 5.2",
+            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16, .interleaved = 1, .filter = 1, .samples = 16, .light_scale = 1},
+            .counters = tracing_counters | BIT(aabb_group_tests) | BIT(rays_shadow) | BIT(units_groups) | BIT(units_packets) |
+                        BIT(units_shadow_groups) | BIT(units_shadow_packets),
+            .params = tracing_params | soft_params,
+            .phases = tracing_phases | soft_phases,
+            .tile = {packet256_soft_native, packet256_soft_count, packet256_soft_record},
+            .annotated = packet256_soft_annotated,
         },
         {
             .name = "mft-soft",

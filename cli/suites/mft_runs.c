@@ -16,11 +16,16 @@ int mft_algorithms_measured(void)
     return count;
 }
 
-run_options mft_run_options(const suite *s, mft_algorithm algorithm)
+run_options mft_kernel_options(const suite *s, const char *kernel)
 {
-    run_options options = suite_run_options(s, kernel_find(mft_kernel(algorithm)), RUN_CORE);
+    run_options options = suite_run_options(s, kernel_find(kernel), RUN_CORE);
     options.params.cull_backface = 1;
     return options;
+}
+
+run_options mft_run_options(const suite *s, mft_algorithm algorithm)
+{
+    return mft_kernel_options(s, mft_kernel(algorithm));
 }
 
 base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err)

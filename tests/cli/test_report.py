@@ -9,7 +9,7 @@ from program import PROGRAM, fails, gltf, main, run, stats_of, unread
 
 HAVE_GNUPLOT = shutil.which('gnuplot') is not None
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-table2', 'mft-light-size', 'mft-quality', 'mft-prediction', 'stability',
+SUITES = ['mft-primary', 'models', 'mft-table1', 'mft-table2', 'mft-light-size', 'mft-packet256', 'mft-quality', 'mft-prediction', 'stability',
           'mlrta-table1', 'mlrta-table2', 'mlrta-table3', 'mlrta-tiles', 'mlrta-culling', 'mlrta-params', 'mlrta-adaptive']
 
 
@@ -202,6 +202,25 @@ def mft_light_size__own_scene__as_run_alone(folder):
     assert [row['light scale'] for row in ratios] == [0.125, 0.25, 0.5, 1, 2] + [None] * 4
     assert all(abs(row['cycles'] - runs[(row['light scale'], 'S-Packet')]['cycles'] / runs[(row['light scale'], 'S-Frusta')]['cycles']) < 0.006
                for row in ratios[:5])
+    return None
+
+
+def mft_packet256__own_scene__as_run_alone(folder):
+    scene = ['--scene', own_scene(folder), '--size', '32x32']
+    if unread(scene[1]):
+        return unread(scene[1])
+    tables = report(folder, 'mft-packet256', *scene)
+    runs = {row['algorithm']: row for row in tables['Packets of 16 rays, packets of 256, frusta']}
+    assert len(runs) == 6
+    for kernel, algorithm in (('packet256-primary', 'P-Packet, 256 rays'), ('packet256-soft', 'S-Packet, 256 rays'), ('mft-soft', 'S-Frusta')):
+        stats = stats_of(kernel, *scene, '--param', 'cull_backface=1')
+        row, counts = runs[algorithm], stats['counts']
+        assert row['cycles'] == stats['cycles']['total'] and row['AABB tests'] == counts['aabb_tests']
+        assert row['boxes'] == counts.get('aabb_group_tests', counts['aabb_tests'])
+    ratios = tables['Packets of 256 rays, measured and as the paper has them']
+    assert [row['rays'] for row in ratios] == ['primary', 'primary and shadow', None]
+    assert ratios[0]['speed against frusta'] == '%.0f%%' % (100 * runs['P-Frusta']['cycles'] / runs['P-Packet, 256 rays']['cycles'])
+    assert ratios[2]['boxes against frusta'] == '3% to 4% fewer' and ratios[2]['speed against frusta'] == 'at most 50%'
     return None
 
 

@@ -13,9 +13,9 @@
 #include "scene/builtin.h"
 #include "tests/kernels/trace.h"
 
-enum { SIZE = 80, KERNELS = 4 };
+enum { SIZE = 80, KERNELS = 6 };
 
-static const char *kernel_names[KERNELS] = {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft"};
+static const char *kernel_names[KERNELS] = {"packet16-primary", "packet256-primary", "mft-primary", "packet16-soft", "packet256-soft", "mft-soft"};
 
 typedef struct fixture {
     scene *s;

@@ -11,6 +11,7 @@
 
 #include "reports/paper.h"
 #include "reports/views/mft_light_size.h"
+#include "reports/views/mft_packet256.h"
 #include "reports/views/mft_prediction.h"
 #include "reports/views/mft_quality.h"
 #include "reports/views/mft_table1.h"
@@ -240,6 +241,26 @@ static void light_size__two_scenes__ratios_and_a_series_for_each(void **state)
     json_decref(counts);
 }
 
+static void packet256__one_scene__against_frusta_and_packets(void **state)
+{
+    (void)state;
+    const mft_packet256_row row = {.packet16 = {.scene = "a", .algorithm = MFT_S_PACKET, .pixels = 10, .value = {8, 8, 24, 6, 50}},
+                                   .packet256 = {.scene = "a", .algorithm = MFT_S_PACKET, .pixels = 10, .value = {4, 2, 90, 6, 100}},
+                                   .frusta = {.scene = "a", .algorithm = MFT_S_FRUSTA, .pixels = 10, .value = {4, 2, 20, 12, 30}},
+                                   .boxes = 19};
+    json_t *ratios = json_of(mft_packet256_ratios(&row, 1, NULL)), *counts = json_of(mft_packet256_counts(&row, 1, NULL));
+    assert_string_equal(json_string_value(cell(ratios, 0, "rays")), "primary and shadow");
+    assert_string_equal(json_string_value(cell(ratios, 0, "boxes against frusta")), "5.0% fewer");
+    assert_string_equal(json_string_value(cell(ratios, 0, "AABB tests against frusta")), "4.50 times");
+    assert_string_equal(json_string_value(cell(ratios, 0, "speed against frusta")), "30%");
+    assert_string_equal(json_string_value(cell(ratios, 0, "speed against packets of 16")), "50%");
+    assert_string_equal(json_string_value(cell(ratios, 1, "boxes against frusta")), "3% to 4% fewer");
+    assert_string_equal(json_string_value(cell(counts, 1, "algorithm")), "S-Packet, 256 rays");
+    assert_true(number(counts, 0, "boxes") == 24 && number(counts, 1, "boxes") == 19 && number(counts, 1, "AABB tests") == 90);
+    json_decref(ratios);
+    json_decref(counts);
+}
+
 static void quality__errors__by_region_of_the_reference_and_hits_only(void **state)
 {
     (void)state;
@@ -366,6 +387,7 @@ int main(void)
         cmocka_unit_test(table2__counts_of_the_paper__its_changes),
         cmocka_unit_test(table2__other_scenes__published_rows_apart),
         cmocka_unit_test(light_size__two_scenes__ratios_and_a_series_for_each),
+        cmocka_unit_test(packet256__one_scene__against_frusta_and_packets),
         cmocka_unit_test(quality__errors__by_region_of_the_reference_and_hits_only),
         cmocka_unit_test(quality__tables_and_points__rows_in_their_order),
         cmocka_unit_test(adaptive__simple_and_complex_tile__samples_where_the_error_is),
