@@ -38,7 +38,7 @@ static const struct argp_option option_table[] = {
     {"stat", KEY_STAT, "FILE", OPTION_ARG_OPTIONAL, "a listing in the manner of perf stat; default: on stdout", 3},
     {"annotate", KEY_ANNOTATE, "FILE", OPTION_ARG_OPTIONAL, "the kernel's source with cycles in the margin; default: on stdout", 3},
     {"callgrind", KEY_CALLGRIND, "FILE", 0, "cycles by line for KCachegrind and callgrind_annotate", 3},
-    {"registers", KEY_REGISTERS, NULL, 0, "the registers that the kernel needs, and what spills would cost, among the statistics", 3},
+    {"registers", KEY_REGISTERS, NULL, 0, "the registers that the kernel needs, among the statistics; in core spills are timed", 3},
     {"image", KEY_IMAGE, "FILE", 0, "the rendered picture, in any format that OpenImageIO writes", 3},
     {"aov", KEY_AOV, "FILE.exr", 0, "per-pixel results: Z, prim, U, V, with shadows also visibility, with entry points complexity", 3},
     {"heatmap", KEY_HEATMAP, "FILE", 0, "simulated cycles per pixel, as a picture", 3},
