@@ -45,7 +45,7 @@ static const uint64_t entry_counters = BIT(ep_cells) | BIT(ep_inner) | BIT(end_t
                                        BIT(units_empty_tiles) | BIT(units_divergent_tiles);
 
 /* The parameters that all kernels on the kd-tree have. */
-#define KDTREE_DEFAULTS .empty_percent = 10, .covered_planes = 1, .min_area = 1000, .perfect_splits = 1, .mailbox = 1, .light_scale = 1
+#define KDTREE_DEFAULTS .empty_percent = 10, .covered_planes = 1, .min_area = 100, .perfect_splits = 1, .mailbox = 1, .light_scale = 1
 
 const kernel_info *kernel_list(size_t *count)
 {
