@@ -280,7 +280,7 @@ static void hit_bounds__of_half_the_rays__points_lost(void **state)
 {
     size_t points = 0;
     (void)state;
-    assert_true(lost_of_groups(groups_wanted / 10, 1, &points) > 0);
+    assert_true(lost_of_groups(groups_wanted, 1, &points) > 0);
 }
 
 /* The rays of a tile of a picture, as the kernel makes them, into scratch: job_hard_shadow_ray_of knows their bits. */
