@@ -62,10 +62,12 @@ static inline sim_blamed earliest(const sim_core *s, const core_thread *h, sim_b
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)
         ready[i] = keep_scalar(issued[op->source[i]]) + s->latency[op->latencies >> 8 * i & 0xff];
     sim_blamed at = later(later(later(ready[0], ready[1]), later(ready[2], ready[3])), start);
-    if (h->late_until > h->now)
-        need_late(s, h, &at);
-    if (op->flags & SIM_PRICE_READS && h->stores_until > h->now)
-        sim_need_stored(h->stores, core_price_of(s, h), op->event, &at);
+    if (h->unsettled_until > h->now) {
+        if (h->late_until > h->now)
+            need_late(s, h, &at);
+        if (op->flags & SIM_PRICE_READS)
+            sim_need_stored(h->stores, core_price_of(s, h), op->event, &at);
+    }
     if (op->flags & SIM_PRICE_LASTING)
         sim_need(s->class_free[core_price_of(s, h)->class_id], &at);
     return at;
@@ -95,8 +97,7 @@ static __attribute__((noinline)) sim_blamed held_by_lines(const sim_core *s, con
 /* Whether that is worth asking: some limit is reached, and the op may ask for a line. */
 static inline bool may_be_held(const sim_core *s, const core_thread *h, uint64_t now)
 {
-    return (h->misses.free_at > now || s->prefetches.free_at > now) &&
-           h->op->flags & (ACCESS | SIM_PRICE_HINT);
+    return ((h->misses.free_at > now) | (s->prefetches.free_at > now)) && h->op->flags & (ACCESS | SIM_PRICE_HINT);
 }
 
 /* The line is not simply there. */
@@ -115,7 +116,7 @@ static void remember_store(const sim_core *s, core_thread *h, const core_op *op)
     if (op->line == SIM_NO_LINE)
         return;
     sim_remember_store(h->stores, core_price_of(s, h), op->event, h->now);
-    h->stores_until = line->ready > h->stores_until ? line->ready : h->stores_until;
+    core_unsettle(h, line->ready);
 }
 
 /* Ops that do more than to give a result and to use a line. */

@@ -9,6 +9,7 @@ void core_delay_result(sim_core *s, core_thread *h, const sim_op_price *p, sim_f
                            .arrival = fetch.arrival, .price = p};
     const sim_blamed until = sim_blame(fetch.arrival + s->longest_latency, 0);
     h->late_until = until > h->late_until ? until : h->late_until;
+    core_unsettle(h, until);
 }
 
 /* The thread issues nothing before then, a later cycle, so nothing joins the op. */

@@ -52,7 +52,8 @@ _Static_assert((CORE_READY + 1) * SIM_CONSUMERS <= 256, "latencies are numbered 
 typedef struct core_thread {
     const core_op *op;  /* that issues next */
     sim_blamed now;     /* of the last issue, bucket 0 */
-    sim_blamed late_until, stores_until; /* no late result is ready later, no store is */
+    sim_blamed unsettled_until; /* no late result and no store is ready later */
+    sim_blamed late_until;  /* no late result is */
     sim_blamed *issued;  /* when the youngest ops did, bucket 0, by number within the window; a last one is always 0 */
     uint64_t cycles;    /* core cycles so far that belong to the thread's ops */
     sim_blamed start;   /* the next op issues later than this, unless it joins; kept where the op has effects or ends its tile */
@@ -138,6 +139,12 @@ static inline uint64_t core_line_of(const sim_core *s, const core_thread *h, con
 {
     uint64_t address = e->aux;
     return (address + (address >= LRB_SCRATCH_ADDRESS ? h->scratch : 0)) >> s->line_bits;
+}
+
+/** A late result or a store is ready then. */
+static inline void core_unsettle(core_thread *h, sim_blamed until)
+{
+    h->unsettled_until = until > h->unsettled_until ? until : h->unsettled_until;
 }
 
 /** A tile has none of the ops of the one before: make its first block ready. False: it has no op at all. */

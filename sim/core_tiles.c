@@ -168,7 +168,7 @@ bool core_begin_tile(sim_core *s, core_thread *h, const lrb_event *events, size_
     memset(h->stores, 0, sizeof h->stores);
     memset(h->regions, 0, sizeof h->regions);
     h->tile_first = h->decoded_ops;
-    h->late_until = h->stores_until = 0;
+    h->late_until = h->unsettled_until = 0;
     h->before = NULL;
     h->phase = h->decoded_phase = 0;
     h->at = (sim_whereabouts){0};
