@@ -115,6 +115,8 @@ char *identity_head_text(const run_result *r)
     json_object_set_new(head, "schema", json_string(schema));
     json_object_set_new(head, "version", json_string(VERSION_NUMBER));
     json_object_update(head, run);
+    if (r->job->filtered)
+        json_object_set_new(head, "first_pass", integer(kernel_job_first_pass(r->job)));
     char *text = json_dumps(head, JSON_COMPACT);
     json_decref(run);
     json_decref(head);
@@ -218,6 +220,13 @@ static base_status read_run(const char *path, json_t *head, identity *out, base_
     return out->json ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, path, "out of memory");
 }
 
+/* How many tiles come before a second pass: all, if nothing is said. */
+static base_status read_passes(const char *path, const json_t *head, uint32_t tiles, identity *out, base_error *err)
+{
+    out->first_pass = tiles;
+    return json_object_get(head, "first_pass") ? positive(path, head, "first_pass", tiles, &out->first_pass, err) : BASE_OK;
+}
+
 /* Parse one of the trace's texts. */
 static base_status parse(const char *path, const char *text, json_t **out, base_error *err)
 {
@@ -240,6 +249,8 @@ base_status identity_read(const char *path, const trace_reader *trace, identity 
         status = parse(path, trace_reader_tail_text(trace), &tail, err);
     if (status == BASE_OK)
         status = read_run(path, head, out, err);
+    if (status == BASE_OK)
+        status = read_passes(path, head, trace_reader_tiles(trace), out, err);
     if (status == BASE_OK)
         status = read_counts(path, tail, out, err);
     json_decref(head);

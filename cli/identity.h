@@ -25,6 +25,7 @@ typedef struct identity {
     kernel_info kernel;    /* its name, which belongs to json, its counters and phases; nothing else */
     kernel_counts counts;
     unsigned width, height;
+    unsigned first_pass; /* tiles of it; those beyond are a second one */
 } identity;
 
 /**

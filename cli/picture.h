@@ -6,26 +6,26 @@
 #include "reports/image.h"
 
 /**
- * The scene as the run's rays hit it: base colours, Lambert's law for a point light at the light's centre, times
- * the filtered visibility of kernels with shadows, and a little light from the camera so that nothing is black; what is missed is a pale grey.
- * A pixel whose samples were traced is their mean.
+ * The scene as the run's rays hit it: base colours, lit as kernels with soft shadows lit it, else by Lambert's law for a point light at the
+ * light's centre times the visibility of hard shadows; and a little light from the camera so that nothing is black; what is missed is a
+ * pale grey. A pixel whose samples were traced is their mean.
  *
  * Errors: BASE_ERR_NOMEM.
  */
 base_status picture_shaded(const run_result *result, report_image *out, base_error *err);
 
-/** picture_shaded with other visibilities: by pixel, row by row from the top left. */
+/** picture_shaded with other visibilities: by pixel, row by row from the top left; NULL: as the kernel lit it, which had soft shadows. */
 base_status picture_lit(const run_result *result, const float *seen, report_image *out, base_error *err);
 
 /**
  * The fraction of the light that the hit of each pixel sees, row by row from the top left; 1 for kernels without shadows.
  *
- * @param filtered  as the filter of soft shadows leaves it (kernels/visibility_filter.h), not as it was traced
+ * @param filtered  as the filter of soft shadows leaves it (kernels/visibility_filter.c), if the kernel had one, not as it was traced
  * @return for free(); NULL with BASE_ERR_NOMEM in *err
  */
 float *picture_visibility(const run_result *result, bool filtered, base_error *err);
 
-/** Write Z, prim, U, V and, of kernels with shadows, visibility, of those that mark pixels, marked (docs/interface.md) as an EXR file. */
+/** Write Z, prim, U, V and, of kernels with shadows, visibility, with entry points, complexity, of those that mark pixels, marked (docs/interface.md) as an EXR file. */
 base_status picture_write_aov(const run_result *result, const char *path, base_error *err);
 
 /**

@@ -20,7 +20,7 @@ typedef struct helper {
 struct record_ahead {
     pthread_mutex_t mutex;
     pthread_cond_t changed;
-    size_t tiles, next; /* next: the tile that is recorded next */
+    size_t end, next; /* next: the tile that is recorded next */
     bool stop;
     base_error error; /* of the first helper that failed; status BASE_OK: none did */
     unsigned places, helpers;
@@ -40,7 +40,7 @@ static place *find_place(record_ahead *a, place_state state)
 static place *begin_tile(record_ahead *a)
 {
     for (;;) {
-        if (a->stop || a->next == a->tiles)
+        if (a->stop || a->next == a->end)
             return NULL;
         place *p = find_place(a, PLACE_FREE);
         if (p) {
@@ -74,15 +74,16 @@ static void *help(void *user)
     return NULL;
 }
 
-base_status record_ahead_start(recorder *recorders, unsigned count, size_t tiles, unsigned held, record_ahead **out,
-                               base_error *err)
+base_status record_ahead_start(recorder *recorders, unsigned count, size_t first, size_t end, unsigned held,
+                               record_ahead **out, base_error *err)
 {
     record_ahead *a = calloc(1, sizeof *a);
     *out = a;
     if (a) {
         pthread_mutex_init(&a->mutex, NULL);
         pthread_cond_init(&a->changed, NULL);
-        a->tiles = tiles;
+        a->next = first;
+        a->end = end;
         a->places = held + 2 * count;
         a->place = calloc(a->places, sizeof *a->place);
         a->helper = calloc(count, sizeof *a->helper);

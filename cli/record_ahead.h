@@ -8,14 +8,14 @@
 typedef struct record_ahead record_ahead;
 
 /**
- * Start recording tiles 0, 1, ... on host threads of its own.
+ * Start recording tiles first, first + 1, ... end - 1 on host threads of its own.
  *
  * @param recorders  `count` of them, one a host thread; owned by the caller, who leaves them alone until record_ahead_stop
  * @param held       recordings that the consumer may hold at the same time
  *
  * Errors: BASE_ERR_NOMEM, also if the host has no thread to give.
  */
-base_status record_ahead_start(recorder *recorders, unsigned count, size_t tiles, unsigned held, record_ahead **out,
+base_status record_ahead_start(recorder *recorders, unsigned count, size_t first, size_t end, unsigned held, record_ahead **out,
                                base_error *err);
 
 /** Wait for a tile; tiles are asked for in order. Errors: those of recorder_tile. */

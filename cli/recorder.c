@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sim/spill.h"
+
 enum { FIRST_EVENTS = 1 << 16 };
 
 void recording_free(recording *r)
@@ -89,6 +91,25 @@ static void record_trace(const recorder *r, uint32_t tile, const recording *reco
     run_trace_end_tile(trace, r->worker, tile);
 }
 
+/* What registers the tile needs; what does not fit is spilled, among its events. */
+static base_status fit_registers(recorder *r, recording *into, base_error *err)
+{
+    size_t spill_count = 0;
+    sim_registers_events(r->registers, into->events, (uint32_t)into->count);
+    base_status status = sim_registers_end(r->registers, err);
+    const sim_spill *spills = sim_registers_spills(r->registers, &spill_count);
+    if (status != BASE_OK || spill_count == 0)
+        return status;
+    recording spilled = {0};
+    status = sim_spill_events(into->events, into->count, spills, spill_count, &spilled.events, &spilled.count, err);
+    if (status != BASE_OK)
+        return status;
+    spilled.capacity = spilled.count;
+    recording_free(into);
+    *into = spilled;
+    return BASE_OK;
+}
+
 static base_status record_tile(recorder *r, uint32_t tile, recording *into, base_error *err)
 {
     const recorder_input *input = r->input;
@@ -104,10 +125,7 @@ static base_status record_tile(recorder *r, uint32_t tile, recording *into, base
         return out_of_memory(err);
     if (input->trace && input->trace->writer)
         record_trace(r, tile, into);
-    if (!r->registers)
-        return BASE_OK;
-    sim_registers_events(r->registers, into->events, (uint32_t)into->count);
-    return sim_registers_end(r->registers, err);
+    return r->registers ? fit_registers(r, into, err) : BASE_OK;
 }
 
 base_status recorder_tile(recorder *r, size_t tile, recording *into, base_error *err)

@@ -33,7 +33,7 @@ typedef struct core_watch {
 
 /* Where tiles come from, and what becomes of them besides. */
 typedef struct recorder_input {
-    size_t tiles;
+    size_t first_pass, tiles;  /* tiles beyond the first pass begin when all of that are done */
     const kernel_info *kernel; /* of a run, which also has a job */
     const kernel_job *job;
     kernel_counts *tile_counts; /* out: by tile, or NULL */

@@ -74,7 +74,8 @@ report_table *registers_table(const run_result *r)
             report_table_add_integer(t, (int64_t)p->reloads);
         }
     }
-    snprintf(text, sizeof text, "Cycles of the spills, which are not among the cycles of the run: %.1f.", registers_spill_cycles(r));
+    snprintf(text, sizeof text, "Cycles of the spills if nothing waits for them: %.1f; they are %s the events that the run timed.",
+             registers_spill_cycles(r), r->options.model == RUN_CORE ? "among" : "not among");
     report_table_add_note(t, text);
     report_table_add_note(t, "Values made before a tile began (pointers, constants, the mask of all lanes) are not counted.");
     return t;

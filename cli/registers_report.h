@@ -15,7 +15,8 @@ report_table *registers_table(const run_result *result);
 
 /**
  * Cycles that the spills would take if nothing waited for them, at their classes' throughput: a vector is stored and loaded, a
- * mask goes through a general register. They are not among the cycles of the run.
+ * mask goes through a general register. A run of RUN_CORE has the spills among its events, and what they really take among its cycles;
+ * other runs have not.
  */
 double registers_spill_cycles(const run_result *result);
 

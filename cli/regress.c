@@ -12,19 +12,25 @@
 #include "lrbni/base/output_file.h"
 #include "scene/builtin.h"
 
-enum { KEY_UPDATE = 256, KEY_BASELINES, KEY_JOBS, PATH_BYTES = 4096, FIELD_BYTES = 160, KERNELS = 2 };
+enum { KEY_UPDATE = 256, KEY_BASELINES, KEY_JOBS, PATH_BYTES = 4096, FIELD_BYTES = 160, KERNELS = 4 };
 
-/* What is measured: kernels on the built-in scenes, size x size pixels. */
+/* What is measured: kernels on scenes, size x size pixels. */
 typedef struct suite {
-    const char *name, *kernels[KERNELS];
+    const char *name, *kernels[KERNELS]; /* as many as there are */
     unsigned size;
+    const char *const *scenes; /* of a long suite, which is measured only if it is named, NULL at the end; NULL: the usual ones */
+    const char *core_scene, *core_kernel; /* of a long suite: what the core model runs as well */
 } suite;
 
+/* Those of the tables in the papers. */
+static const char *const mft_scenes[] = {"builtin:creature-69k", "builtin:fern-212k", "builtin:hall-60k", "builtin:forest-174k", NULL};
+
 static const suite suites[] = {
-    {"mft-primary", {"packet16-primary", "mft-primary"}, 256},
-    {"mft-soft", {"packet16-soft", "mft-soft"}, 32},
-    {"mlrta-primary", {"kd16-primary", "mlrta-primary"}, 128},
-    {"mlrta-shadow", {"kd16-shadow", "mlrta-shadow"}, 64},
+    {"mft-primary", {"packet16-primary", "mft-primary", "packet256-primary"}, 256, NULL, NULL, NULL},
+    {"mft-soft", {"packet16-soft", "mft-soft", "packet256-soft"}, 32, NULL, NULL, NULL},
+    {"mlrta-primary", {"kd16-primary", "mlrta-primary"}, 128, NULL, NULL, NULL},
+    {"mlrta-shadow", {"kd16-shadow", "mlrta-shadow"}, 64, NULL, NULL, NULL},
+    {"mft-table1-long", {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft"}, 1024, mft_scenes, "hall-60k", "mft-primary"},
 };
 enum { SUITES = sizeof suites / sizeof *suites };
 
@@ -56,10 +62,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
 
 static const struct argp argp = {
     option_table, parse, "[SUITE...]",
-    "Measure the suites (all, if none is named) and compare every count, op and cycle with the stored baseline.\v"
-    "Exit code 1 if anything differs. Suites, on the three small indoor scenes, on larrabee and knc: mft-primary and mft-soft, packets and frusta, "
+    "Measure the suites (all but the long ones, if none is named) and compare every count, op and cycle with the stored baseline.\v"
+    "Exit code 1 if anything differs. Suites, on the three small indoor scenes, on larrabee and knc: mft-primary and mft-soft, packets, large packets and frusta, "
     "primary rays at 256x256, soft shadows at 32x32 with every way to shrink frusta; mlrta-primary and mlrta-shadow, packets through the "
-    "kd-tree from its root and from entry points, at 128x128 and, with hard shadows, 64x64.",
+    "kd-tree from its root and from entry points, at 128x128 and, with hard shadows, 64x64. Measured only if named: mft-table1-long, the "
+    "counts of 'lanetrace report mft-table1' at 1024x1024 on its scenes, and the cycles of one of its rows: minutes.",
     NULL, NULL, NULL,
 };
 
@@ -78,6 +85,17 @@ static base_status measure(json_t *runs, const scene *s, const kernel_info *kern
         status = base_fail(err, BASE_ERR_NOMEM, "regress", "out of memory");
     run_result_destroy(&result);
     sim_machine_destroy(&machine);
+    return status;
+}
+
+/* One kernel of a long suite, as the tables have it: back faces culled; counted, and timed where the suite says so. */
+static base_status measure_long(json_t *runs, const suite *of, const scene *s, const kernel_info *kernel, unsigned jobs, base_error *err)
+{
+    kernel_params params = kernel->defaults;
+    params.cull_backface = 1;
+    base_status status = measure(runs, s, kernel, &params, of->size, "larrabee", RUN_COUNT, jobs, err);
+    if (status == BASE_OK && strcmp(s->name, of->core_scene) == 0 && strcmp(kernel->name, of->core_kernel) == 0)
+        status = measure(runs, s, kernel, &params, of->size, "larrabee", RUN_CORE, jobs, err);
     return status;
 }
 
@@ -104,8 +122,10 @@ static base_status measure_kernel(json_t *runs, const scene *s, const kernel_inf
 static base_status measure_scene(json_t *runs, const suite *of, const scene *s, unsigned jobs, base_error *err)
 {
     base_status status = BASE_OK;
-    for (size_t k = 0; status == BASE_OK && k < KERNELS; k++)
-        status = measure_kernel(runs, s, kernel_find(of->kernels[k]), of->size, jobs, err);
+    for (size_t k = 0; status == BASE_OK && k < KERNELS && of->kernels[k]; k++) {
+        const kernel_info *kernel = kernel_find(of->kernels[k]);
+        status = of->scenes ? measure_long(runs, of, s, kernel, jobs, err) : measure_kernel(runs, s, kernel, of->size, jobs, err);
+    }
     return status;
 }
 
@@ -114,6 +134,9 @@ static base_status measure_suite(json_t *runs, const suite *of, unsigned jobs, b
     size_t count;
     const char *const *scenes = scene_builtin_usual(&count);
     base_status status = BASE_OK;
+    if (of->scenes)
+        for (scenes = of->scenes, count = 0; scenes[count];)
+            count++;
     for (size_t i = 0; status == BASE_OK && i < count; i++) {
         scene *s = NULL;
         status = scene_open(scenes[i], &s, err);
@@ -302,17 +325,28 @@ static const suite *find_suite(const char *name)
     return NULL;
 }
 
+static base_status no_suite(const char *name, base_error *err)
+{
+    char names[400] = "";
+    for (size_t i = 0; i < SUITES; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", suites[i].name);
+    return base_fail(err, BASE_ERR_USAGE, name, "no such suite (there are %s)", names);
+}
+
 static base_status regress(const arguments *a, bool *differ, base_error *err)
 {
     unsigned long jobs = base_parallel_jobs();
     base_status status = BASE_OK;
     for (size_t i = 0; i < a->suites.count; i++)
         if (!find_suite(a->suites.items[i]))
-            return base_fail(err, BASE_ERR_USAGE, a->suites.items[i], "no such suite (there are mft-primary, mft-soft)");
+            return no_suite(a->suites.items[i], err);
     if (a->jobs && command_number("--jobs", a->jobs, 1, 1024, &jobs, err) != BASE_OK)
         return err->status;
-    for (size_t i = 0; status == BASE_OK && i < (a->suites.count ? a->suites.count : SUITES); i++)
-        status = regress_suite(a, a->suites.count ? find_suite(a->suites.items[i]) : &suites[i], (unsigned)jobs, differ, err);
+    for (size_t i = 0; status == BASE_OK && i < a->suites.count; i++)
+        status = regress_suite(a, find_suite(a->suites.items[i]), (unsigned)jobs, differ, err);
+    for (size_t i = 0; status == BASE_OK && !a->suites.count && i < SUITES; i++)
+        if (!suites[i].scenes)
+            status = regress_suite(a, &suites[i], (unsigned)jobs, differ, err);
     return status;
 }
 

@@ -87,7 +87,7 @@ static base_status export_core(const trace_reader *trace, const identity *id, co
 {
     tap t = {.x = x, .options = o, .wanted = calloc(machine->threads, sizeof *t.wanted)};
     const core_watch watch = {.begin_tile = begin_core_tile, .end_tile = end_core_tile, .observer = take_core_issued, .user = &t};
-    const recorder_input input = {.tiles = trace_reader_tiles(trace), .replayed = trace, .watch = &watch};
+    const recorder_input input = {.first_pass = id->first_pass, .tiles = trace_reader_tiles(trace), .replayed = trace, .watch = &watch};
     run_result result = {.options = {.kernel = &id->kernel, .model = RUN_CORE, .jobs = 1}, .counts = id->counts, .machine = machine};
     progress bar = progress_begin("export", input.tiles, true);
     base_status status = t.wanted ? run_core(&result, &input, &bar, err) : base_fail(err, BASE_ERR_NOMEM, "--export", "out of memory");

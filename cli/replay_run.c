@@ -185,7 +185,7 @@ static base_status run_members(core_member *members, size_t count, base_error *e
 }
 
 /* Core, several machines of a core each: side by side, each tile decoded once. */
-static base_status replay_together(const trace_reader *trace, replay_state *r, run_result *results, base_error *err)
+static base_status replay_together(const trace_reader *trace, const identity *id, replay_state *r, run_result *results, base_error *err)
 {
     core_member *members = calloc(r->count, sizeof *members);
     tile_exchange *exchange = NULL;
@@ -196,7 +196,8 @@ static base_status replay_together(const trace_reader *trace, replay_state *r, r
         status = tile_exchange_create(trace, (unsigned)r->count, r->jobs, &exchange, err);
     for (size_t m = 0; status == BASE_OK && m < r->count; m++) {
         members[m] = (core_member){.result = &results[m], .bar = &r->progress};
-        members[m].input = (recorder_input){.tiles = trace_reader_tiles(trace), .replayed = trace, .exchange = exchange, .member = (unsigned)m};
+        members[m].input = (recorder_input){.first_pass = id->first_pass, .tiles = trace_reader_tiles(trace), .replayed = trace, .exchange = exchange,
+                                            .member = (unsigned)m};
         results[m].options.jobs = 1; /* of the machine's own; the others run meanwhile */
     }
     if (status == BASE_OK)
@@ -208,9 +209,9 @@ static base_status replay_together(const trace_reader *trace, replay_state *r, r
     return status;
 }
 
-static base_status replay_one_by_one(const trace_reader *trace, replay_state *r, run_result *results, base_error *err)
+static base_status replay_one_by_one(const trace_reader *trace, const identity *id, replay_state *r, run_result *results, base_error *err)
 {
-    const recorder_input input = {.tiles = trace_reader_tiles(trace), .replayed = trace};
+    const recorder_input input = {.first_pass = id->first_pass, .tiles = trace_reader_tiles(trace), .replayed = trace};
     base_status status = BASE_OK;
     for (size_t m = 0; status == BASE_OK && m < r->count; m++)
         status = run_core(&results[m], &input, &r->progress, err);
@@ -226,7 +227,7 @@ static base_status replay_cores(const trace_reader *trace, const identity *id, r
         results[m].counts = id->counts;
         together &= r->machines[m]->cores == 1;
     }
-    base_status status = together ? replay_together(trace, r, results, err) : replay_one_by_one(trace, r, results, err);
+    base_status status = together ? replay_together(trace, id, r, results, err) : replay_one_by_one(trace, id, r, results, err);
     for (size_t m = 0; m < r->count; m++)
         results[m].kernel_seconds = clock_seconds() - start;
     return status;

@@ -43,6 +43,7 @@ typedef struct run_state {
     run_worker *workers;
     progress *progress;
     run_trace *trace; /* that takes what is recorded; its writer NULL: nothing is */
+    size_t pass;      /* first tile of the pass */
 } run_state;
 
 /* Events for the trace, and for the model where it takes events. */
@@ -106,10 +107,11 @@ static void run_tile(run_state *r, uint32_t tile, unsigned worker, kernel_counts
         run_trace_end_tile(r->trace, worker, tile);
 }
 
-static void run_one_tile(void *user, size_t tile, unsigned worker_index)
+static void run_one_tile(void *user, size_t piece, unsigned worker_index)
 {
     run_state *r = user;
     run_result *result = r->result;
+    const size_t tile = r->pass + piece;
     run_worker *w = &r->workers[worker_index];
     double *cycles = result->region_cycles ? result->region_cycles + tile * (SIM_MAX_REGIONS + 1) : NULL;
     kernel_counts counts = {{0}};
@@ -235,6 +237,16 @@ static void destroy_workers(run_state *r, unsigned jobs)
     free(r->workers);
 }
 
+/* Run the tiles of each pass. */
+static void run_passes(run_state *r)
+{
+    const kernel_job *job = r->result->job;
+    const size_t first = kernel_job_first_pass(job);
+    base_parallel_for(r->result->options.jobs, first, run_one_tile, r);
+    r->pass = first;
+    base_parallel_for(r->result->options.jobs, kernel_job_tiles(job) - first, run_one_tile, r);
+}
+
 /* Trace the tiles one by one: all models but core. */
 static base_status trace_tiles(run_result *result, run_trace *recorded, progress *bar, base_error *err)
 {
@@ -242,7 +254,7 @@ static base_status trace_tiles(run_result *result, run_trace *recorded, progress
     run_state r = {.result = result, .progress = bar, .trace = recorded};
     base_status status = create_workers(&r, jobs, err);
     if (status == BASE_OK) {
-        base_parallel_for(jobs, kernel_job_tiles(result->job), run_one_tile, &r);
+        run_passes(&r);
         for (unsigned i = 0; i < jobs; i++)
             collect_worker(result, &r.workers[i]);
         for (unsigned i = 0; status == BASE_OK && i < jobs; i++)
@@ -287,7 +299,7 @@ static base_status trace(run_result *result, base_error *err)
     if (status == BASE_OK) {
         progress bar = progress_begin(o->kernel->name, tiles, o->progress);
         double start = clock_seconds(), processor_start = clock_processor_seconds();
-        recorder_input input = {.tiles = tiles, .kernel = o->kernel, .job = result->job, .tile_counts = result->tile_counts,
+        recorder_input input = {.first_pass = kernel_job_first_pass(result->job), .tiles = tiles, .kernel = o->kernel, .job = result->job, .tile_counts = result->tile_counts,
                                 .trace = &recorded, .annotated = o->profile || o->registers, .registers = o->registers};
         status = o->model != RUN_CORE ? trace_tiles(result, &recorded, &bar, err)
                  : o->error > 0       ? trace_sampled(result, &input, &bar, err)
@@ -334,7 +346,8 @@ static base_status build_kdtree(run_result *r, base_error *err)
     if (status == BASE_OK && note.status != BASE_OK)
         fprintf(stderr, "lanetrace: note: %s: %s; the kd-tree was built anew\n", note.what, note.why);
     if (status == BASE_OK && params->empty_occluders)
-        status = kdtree_mark_occluders(r->kdtree, (const float(*)[3])origins, params->hard_shadows ? 2 : 1, err);
+        status = kdtree_mark_occluders(r->kdtree, (const float(*)[3])origins, params->hard_shadows ? 2 : 1,
+                                       params->cull_backface, err);
     return status;
 }
 
@@ -386,6 +399,17 @@ static unsigned unit_pixels(const kernel_job *job, unsigned x, unsigned y)
     return pixels_from(job, x / edge * edge, y / edge * edge, edge);
 }
 
+/* Of the second pass: the tile's, spread over its pixels. */
+static double second_pass_cycles(const run_result *result, unsigned x, unsigned y)
+{
+    const kernel_job *job = result->job;
+    const size_t unit = kernel_job_first_pass(job) + kernel_job_pixel(job, x, y).tile;
+    const unsigned edge = JOB_TILE_PIXELS;
+    if (!job->filtered)
+        return 0;
+    return result->region_cycles[unit * (SIM_MAX_REGIONS + 1) + SIM_MAX_REGIONS] / pixels_from(job, x / edge * edge, y / edge * edge, edge);
+}
+
 double run_pixel_cycles(const run_result *result, unsigned x, unsigned y)
 {
     const kernel_job *job = result->job;
@@ -393,7 +417,7 @@ double run_pixel_cycles(const run_result *result, unsigned x, unsigned y)
     job_pixel p = kernel_job_pixel(job, x, y);
     const double *cycles = result->region_cycles + (size_t)p.unit * (SIM_MAX_REGIONS + 1);
     double block = cycles[p.region] / pixels_from(job, x / edge * edge, y / edge * edge, edge);
-    return block + cycles[SIM_MAX_REGIONS] / unit_pixels(job, x, y);
+    return block + cycles[SIM_MAX_REGIONS] / unit_pixels(job, x, y) + second_pass_cycles(result, x, y);
 }
 
 double run_pixel_count(const run_result *result, kernel_counter counter, unsigned x, unsigned y)

@@ -89,7 +89,7 @@ void run_finish_cycles(run_result *result);
 /** Free what a result owns. */
 void run_result_destroy(run_result *result);
 
-/** Simulated cycles of image pixel (x, y): its share of its block's and its tile's. All models but RUN_NATIVE. */
+/** Simulated cycles of image pixel (x, y): its share of its block's and its tile's, in all passes. All models but RUN_NATIVE. */
 double run_pixel_cycles(const run_result *result, unsigned x, unsigned y);
 
 /** A counter's value for pixel (x, y): its tile's, divided by the pixels of the tile. Needs keep_tile_counts. */

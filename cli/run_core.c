@@ -11,11 +11,11 @@
 /* One simulated core and the tiles that are its. */
 typedef struct core_run {
     run_result *result;
-    size_t tiles;
     const core_watch *watch; /* or NULL */
     progress *bar;
     unsigned worker;
-    size_t next, step;      /* its next tile, and how far the one after it is */
+    sim_core *core;
+    size_t next, step, end; /* its next tile, how far the one after it is, and where the pass ends */
     recorder *recorder;     /* of its host thread; unused if ... */
     record_ahead *ahead;    /* ... tiles are recorded ahead */
     recording *own;         /* by hardware thread */
@@ -32,7 +32,7 @@ static base_status next_tile(void *user, unsigned thread, const lrb_event **even
     if (r->taken[thread])
         record_ahead_release(r->ahead, r->taken[thread]);
     r->taken[thread] = NULL;
-    if (r->next >= r->tiles)
+    if (r->next >= r->end)
         return BASE_OK;
     r->tile[thread] = r->next;
     r->next += r->step;
@@ -62,75 +62,98 @@ static void tile_done(void *user, unsigned thread, const uint64_t regions[SIM_MA
     progress_step(r->bar, r->worker);
 }
 
-/* Simulate one core from its first tile to its last. */
-static base_status simulate(core_run *r, sim_core_stats *stats, sim_profile **profile, base_error *err)
+static base_status create_core(core_run *r, sim_profile **profile, base_error *err)
 {
     const unsigned threads = r->result->machine->threads;
-    const sim_core_feed feed = {.next = next_tile, .done = tile_done, .user = r};
-    sim_core *core = NULL;
     r->own = calloc(threads, sizeof *r->own);
     r->taken = calloc(threads, sizeof *r->taken);
     r->tile = calloc(threads, sizeof *r->tile);
-    base_status status = BASE_OK;
     if (!r->own || !r->taken || !r->tile)
-        status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
-    if (status == BASE_OK)
-        status = sim_core_create(r->result->machine, &core, err);
+        return base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
+    base_status status = sim_core_create(r->result->machine, &r->core, err);
     if (status == BASE_OK && profile)
         status = sim_profile_create(profile, err);
     if (status == BASE_OK && profile)
-        sim_core_set_profile(core, *profile);
+        sim_core_set_profile(r->core, *profile);
     if (status == BASE_OK && r->watch)
-        sim_core_observe(core, r->watch->observer, r->watch->user);
-    if (status == BASE_OK)
-        status = sim_core_run(core, &feed, err);
-    if (status == BASE_OK)
-        *stats = sim_core_get(core);
-    sim_core_destroy(&core);
-    for (unsigned t = 0; r->own && t < threads; t++)
+        sim_core_observe(r->core, r->watch->observer, r->watch->user);
+    return status;
+}
+
+static void destroy_core(core_run *r)
+{
+    sim_core_destroy(&r->core);
+    for (unsigned t = 0; r->own && t < r->result->machine->threads; t++)
         recording_free(&r->own[t]);
     free(r->own);
     free(r->taken);
     free(r->tile);
-    return status;
+}
+
+/* Simulate the core's tiles of a pass; its caches and its predictor are as the last one left them. */
+static base_status simulate_pass(core_run *r, base_error *err)
+{
+    const sim_core_feed feed = {.next = next_tile, .done = tile_done, .user = r};
+    return sim_core_run(r->core, &feed, err);
 }
 
 /* All simulated cores of a run. */
 typedef struct chip {
     run_result *result;
     const recorder_input *input;
-    progress *bar;
+    size_t first, end;   /* tiles of the pass */
+    core_run *cores;
     recorder *recorders; /* by host thread */
     sim_core_stats *stats; /* by core */
     sim_profile **profiles; /* by core; NULL if there are to be none */
     base_error *errors;  /* by core */
 } chip;
 
+static base_status create_cores(chip *c, progress *bar, base_error *err)
+{
+    const unsigned cores = c->result->machine->cores;
+    base_status status = BASE_OK;
+    for (unsigned i = 0; status == BASE_OK && i < cores; i++) {
+        c->cores[i] = (core_run){.result = c->result, .bar = bar, .worker = c->input->member, .step = cores,
+                                 .watch = cores == 1 ? c->input->watch : NULL};
+        status = create_core(&c->cores[i], c->profiles ? &c->profiles[i] : NULL, err);
+    }
+    return status;
+}
+
 static void simulate_core(void *user, size_t core, unsigned worker)
 {
     chip *c = user;
-    core_run r = {.result = c->result, .tiles = c->input->tiles, .bar = c->bar, .worker = worker, .next = core,
-                  .step = c->result->machine->cores, .recorder = &c->recorders[worker]};
-    simulate(&r, &c->stats[core], c->profiles ? &c->profiles[core] : NULL, &c->errors[core]);
+    core_run *r = &c->cores[core];
+    r->worker = worker;
+    r->recorder = &c->recorders[worker];
+    simulate_pass(r, &c->errors[core]);
 }
 
 /* One core here, its tiles recorded ahead by the other host threads. */
 static base_status simulate_single(chip *c, unsigned jobs, base_error *err)
 {
-    core_run r = {.result = c->result, .tiles = c->input->tiles, .watch = c->input->watch, .bar = c->bar,
-                  .worker = c->input->member, .step = 1, .recorder = &c->recorders[0]};
+    core_run *r = c->cores;
     base_status status = BASE_OK;
+    r->recorder = &c->recorders[0];
     if (jobs > 1)
-        status = record_ahead_start(c->recorders + 1, jobs - 1, c->input->tiles, c->result->machine->threads, &r.ahead, err);
+        status = record_ahead_start(c->recorders + 1, jobs - 1, c->first, c->end, c->result->machine->threads, &r->ahead, err);
     if (status == BASE_OK)
-        status = simulate(&r, c->stats, c->profiles, err);
-    record_ahead_stop(&r.ahead);
+        status = simulate_pass(r, err);
+    record_ahead_stop(&r->ahead);
     return status;
 }
 
-static base_status simulate_all(chip *c, unsigned jobs, base_error *err)
+/* The tiles from first to end, on all cores. */
+static base_status simulate_all(chip *c, unsigned jobs, size_t first, size_t end, base_error *err)
 {
     const unsigned cores = c->result->machine->cores;
+    c->first = first;
+    c->end = end;
+    for (unsigned i = 0; i < cores; i++) {
+        c->cores[i].next = first + i;
+        c->cores[i].end = end;
+    }
     if (cores == 1)
         return simulate_single(c, jobs, err);
     base_parallel_for(jobs, cores, simulate_core, c);
@@ -140,13 +163,32 @@ static base_status simulate_all(chip *c, unsigned jobs, base_error *err)
     return BASE_OK;
 }
 
-/* The run takes as long as its slowest core; the others have no work at its end. */
+/* A pass takes as long as its slowest core: none begins the next one before all are done. */
+static base_status simulate_passes(chip *c, unsigned jobs, base_error *err)
+{
+    const size_t ends[] = {c->input->first_pass, c->input->tiles};
+    base_status status = BASE_OK;
+    size_t first = 0;
+    for (int pass = 0; status == BASE_OK && pass < 2 && first < c->input->tiles; pass++) {
+        uint64_t slowest = 0;
+        status = simulate_all(c, jobs, first, ends[pass], err);
+        for (unsigned i = 0; i < c->result->machine->cores; i++) {
+            const sim_core_stats now = sim_core_get(c->cores[i].core);
+            const uint64_t cycles = now.cycles - c->stats[i].cycles;
+            slowest = cycles > slowest ? cycles : slowest;
+            c->stats[i] = now;
+        }
+        c->result->cycles += slowest;
+        first = ends[pass];
+    }
+    return status;
+}
+
+/* The other cores have no work while they wait for the slowest. */
 static base_status collect(const chip *c, unsigned jobs, base_error *err)
 {
     base_status status = BASE_OK;
     run_result *result = c->result;
-    for (unsigned i = 0; i < result->machine->cores; i++)
-        result->cycles = c->stats[i].cycles > result->cycles ? c->stats[i].cycles : result->cycles;
     for (unsigned i = 0; i < result->machine->cores; i++) {
         sim_core_stats_idle(&c->stats[i], result->machine, result->cycles - c->stats[i].cycles);
         sim_core_stats_add(&result->core, &c->stats[i]);
@@ -172,22 +214,28 @@ base_status run_core(run_result *result, const recorder_input *input, progress *
     enum { MAX_RECORDERS = 5 }; /* of a single core: more are faster than it can be */
     const unsigned cores = result->machine->cores, most = cores > 1 ? cores : MAX_RECORDERS;
     const unsigned jobs = result->options.jobs < most ? result->options.jobs : most;
-    chip c = {.result = result, .input = input, .bar = bar};
+    chip c = {.result = result, .input = input};
+    c.cores = calloc(cores, sizeof *c.cores);
     c.recorders = calloc(jobs, sizeof *c.recorders);
     c.stats = calloc(cores, sizeof *c.stats);
     c.errors = calloc(cores, sizeof *c.errors);
     c.profiles = result->profile ? calloc(cores, sizeof *c.profiles) : NULL;
     base_status status = BASE_OK;
-    if (!c.recorders || !c.stats || !c.errors || (result->profile && !c.profiles))
+    if (!c.cores || !c.recorders || !c.stats || !c.errors || (result->profile && !c.profiles))
         status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     for (unsigned i = 0; status == BASE_OK && i < jobs; i++)
         status = recorder_create(input, result->machine, i, &c.recorders[i], err);
     if (status == BASE_OK)
-        status = simulate_all(&c, jobs, err);
+        status = create_cores(&c, bar, err);
+    if (status == BASE_OK)
+        status = simulate_passes(&c, jobs, err);
     if (status == BASE_OK)
         status = collect(&c, jobs, err);
     for (unsigned i = 0; c.recorders && i < jobs; i++)
         recorder_destroy(&c.recorders[i]);
+    for (unsigned i = 0; c.cores && i < cores && c.cores[i].result; i++)
+        destroy_core(&c.cores[i]);
+    free(c.cores);
     free(c.recorders);
     free(c.stats);
     free(c.errors);

@@ -7,7 +7,7 @@
 #include "cli/run.h"
 
 /**
- * Simulate all tiles of the input on result->machine->cores cores; tile i belongs to core i mod cores.
+ * Simulate all tiles of the input on result->machine->cores cores, a pass after the other; tile i of a pass belongs to core i mod cores.
  *
  * Several cores run side by side on options.jobs host threads; of a single one the other threads record the tiles ahead.
  *

@@ -1,5 +1,6 @@
 #include "cli/run_sample.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,12 +23,17 @@ typedef struct start {
     sim_contents contents; /* of the caches before the first tile of its warm-up */
 } start;
 
+/* Units that are simulated side by side may have tiles in common. A tile's results are not whole while it is traced, so it is traced by
+   one of them at a time; to the rows that the filter reads it writes what is there. */
+enum { TILE_LOCKS = 64 };
+
 /* One simulated core for each stratum: what its branch predictor has learnt depends on the draws alone. */
 typedef struct sampler {
     const run_result *result;
     recorder_input input;
     sim_core *core;
     recorder recorder;
+    pthread_mutex_t *locks; /* TILE_LOCKS, of tiles by their number modulo that */
     recording *own;      /* by hardware thread: its tile, */
     size_t *tile, *used; /* the tile's number, and how many of its events it has been given: of neighbours behind the unit, not all */
     size_t begin;        /* first tile that is simulated */
@@ -51,6 +57,7 @@ typedef struct sampled_run {
     size_t *by_tile;    /* of the starts, by the tile where they are taken; starts_count of them */
     size_t starts_count;
     sampler samplers[SIM_SAMPLE_STRATA];
+    pthread_mutex_t locks[TILE_LOCKS];
     size_t measured;    /* of the starts */
     size_t round;       /* that is being measured: its first start */
 } sampled_run;
@@ -60,6 +67,15 @@ static size_t begin_of(const run_result *result, size_t unit)
 {
     const size_t first = unit * RUN_SAMPLE_UNIT, before = RUN_SAMPLE_WARMUP * (size_t)result->machine->threads;
     return first > before ? first - before : 0;
+}
+
+static base_status record_tile(sampler *s, unsigned thread, base_error *err)
+{
+    pthread_mutex_t *lock = &s->locks[s->tile[thread] % TILE_LOCKS];
+    pthread_mutex_lock(lock);
+    base_status status = recorder_tile(&s->recorder, s->tile[thread], &s->own[thread], err);
+    pthread_mutex_unlock(lock);
+    return status;
 }
 
 /* The next piece of a tile behind the unit, a new one if the thread is through with the last. */
@@ -73,7 +89,7 @@ static base_status next_behind(sampler *s, unsigned thread, const lrb_event **ev
         s->tile[thread] = s->next++;
         s->used[thread] = 0;
         s->simulated++;
-        status = recorder_tile(&s->recorder, s->tile[thread], tile, err);
+        status = record_tile(s, thread, err);
     }
     const size_t left = tile->count - s->used[thread];
     *events = tile->events + s->used[thread];
@@ -93,7 +109,7 @@ static base_status next_tile(void *user, unsigned thread, const lrb_event **even
         return next_behind(s, thread, events, count, err);
     s->tile[thread] = s->next++;
     s->simulated++;
-    base_status status = recorder_tile(&s->recorder, s->tile[thread], &s->own[thread], err);
+    base_status status = record_tile(s, thread, err);
     *events = s->own[thread].events;
     *count = s->own[thread].count;
     if (s->begin > 0 && s->tile[thread] < s->begin + threads)
@@ -115,7 +131,7 @@ static base_status create_sampler(sampler *s, run_result *result, base_error *er
 {
     const unsigned threads = result->machine->threads;
     s->result = result;
-    s->input = (recorder_input){.tiles = kernel_job_tiles(result->job), .kernel = result->options.kernel, .job = result->job, .sampled = true};
+    s->input = (recorder_input){.first_pass = kernel_job_first_pass(result->job), .tiles = kernel_job_tiles(result->job), .kernel = result->options.kernel, .job = result->job, .sampled = true};
     s->own = calloc(threads, sizeof *s->own);
     s->tile = calloc(threads, sizeof *s->tile);
     s->used = calloc(threads, sizeof *s->used);
@@ -275,8 +291,10 @@ static base_status lay_out(sampled_run *r, base_error *err)
     base_status status = sim_sample_create(r->unit_size, r->units, r->result->options.seed, &r->sample, err);
     if (status == BASE_OK)
         status = draw_units(r, err);
-    for (int i = 0; status == BASE_OK && i < SIM_SAMPLE_STRATA; i++)
+    for (int i = 0; status == BASE_OK && i < SIM_SAMPLE_STRATA; i++) {
+        r->samplers[i].locks = r->locks;
         status = create_sampler(&r->samplers[i], r->result, err);
+    }
     return status;
 }
 
@@ -376,6 +394,8 @@ static void destroy(sampled_run *r)
             destroy_sampler(&r->samplers[i]);
     for (size_t i = 0; i < r->starts_count; i++)
         sim_contents_destroy(&r->starts[i].contents);
+    for (int i = 0; i < TILE_LOCKS; i++)
+        pthread_mutex_destroy(&r->locks[i]);
     sim_sample_destroy(&r->sample);
     free(r->starts);
     free(r->by_tile);
@@ -389,6 +409,8 @@ base_status run_sample(run_result *result, bool *enough, base_error *err)
     sampled_run r = {.result = result};
     if (result->machine->cores != 1)
         return base_fail(err, BASE_ERR_USAGE, "--error", "samples one core, not the %u of --set cores", result->machine->cores);
+    for (int i = 0; i < TILE_LOCKS; i++)
+        pthread_mutex_init(&r.locks[i], NULL);
     base_status status = lay_out(&r, err);
     *enough = false;
     if (status == BASE_OK && r.rounds >= RUN_SAMPLE_FIRST)

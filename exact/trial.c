@@ -361,3 +361,42 @@ trial_finding trial_ray_answer(const trial_ray *ray, const trial_answer *answer)
         measure_errors(&finding, ray, found, answer);
     return finding;
 }
+
+bool trial_ray_blocked(const trial_ray *ray, trial_span span)
+{
+    for (size_t i = 0; i < ray->count; i++) {
+        const candidate *c = &ray->candidates[i];
+        if (c->counts && c->hit.t_double > (double)span.nearest && c->hit.t_double < (double)span.farthest)
+            return true;
+    }
+    return false;
+}
+
+/* Whether a triangle's distance is within the span beyond excuse, and whether it may be held to be. */
+static bool must_be_within(const candidate *c, trial_span span)
+{
+    return c->hit.t_double - c->allowance > (double)span.nearest && c->hit.t_double + c->allowance < (double)span.farthest;
+}
+
+static bool may_be_within(const candidate *c, trial_span span)
+{
+    return c->hit.facing == 0 ||
+           (c->hit.t_double + c->allowance > (double)span.nearest && c->hit.t_double - c->allowance < (double)span.farthest);
+}
+
+trial_finding trial_ray_answer_blocked(const trial_ray *ray, trial_span span, bool answer)
+{
+    const bool blocked = trial_ray_blocked(ray, span);
+    bool must = false, may = false;
+    for (size_t i = 0; i < ray->count; i++) {
+        const candidate *c = &ray->candidates[i];
+        must |= must_be_hit(c) && must_be_within(c, span);
+        may |= may_be_within(c, span);
+    }
+    trial_finding finding = {.verdict = answer == blocked ? TRIAL_RIGHT : TRIAL_EDGE, .leak = blocked && !answer};
+    if (answer && !may)
+        finding.verdict = TRIAL_WRONG;
+    if (!answer && must)
+        finding.verdict = TRIAL_LOST;
+    return finding;
+}

@@ -85,4 +85,18 @@ bool trial_ray_at_edge(const trial_ray *ray);
 /** Judge an answer about the ray that was found out about last. */
 trial_finding trial_ray_answer(const trial_ray *ray, const trial_answer *answer);
 
+/* Between which distances a triangle blocks a ray; both ends are outside. */
+typedef struct trial_span {
+    float nearest, farthest;
+} trial_span;
+
+/** Whether a triangle blocks the ray there. */
+bool trial_ray_blocked(const trial_ray *ray, trial_span span);
+
+/**
+ * Judge the answer that the ray is blocked there, or is not: RIGHT, EDGE, LOST (a triangle blocks it, off its edges and by more than
+ * rounding within the span, and the answer is that none does) or WRONG (the answer is that one does, and none could).
+ */
+trial_finding trial_ray_answer_blocked(const trial_ray *ray, trial_span span, bool answer);
+
 #endif

@@ -190,6 +190,10 @@ static base_status map_segments(kernel_job *job, base_error *err)
         status = lrb_memory_map(&memory, "normals", job->normals_host, job->normals.size, &job->normals, err);
     if (status == BASE_OK)
         status = lrb_memory_map(&memory, "shadows", job->shadows_host, job->shadows.size, &job->shadows, err);
+    if (status == BASE_OK && job->rows_host)
+        status = lrb_memory_map(&memory, "filter constants", job->filter_host, sizeof *job->filter_host, &job->filter, err);
+    if (status == BASE_OK && job->rows_host)
+        status = lrb_memory_map(&memory, "pixel rows", job->rows_host, job->rows.size, &job->rows, err);
     return status;
 }
 
@@ -223,10 +227,11 @@ static base_status create(const bvh *tree, const kdtree *kd, unsigned unit_log2,
         job->constants_host = aligned_alloc(64, (sizeof *job->constants_host + 63) / 64 * 64);
         job->tiles_host = aligned_alloc(64, frame_tiles(job) * sizeof *job->tiles_host);
         job->frame_host = aligned_alloc(64, frame_tiles(job) * sizeof *job->frame_host);
+        job->complexity_host = kd ? calloc(frame_tiles(job), sizeof *job->complexity_host) : NULL;
         job->cells_host = kd ? aligned_alloc(64, 2 * sizeof *job->cells_host) : NULL;
         job->light_constants_host = kd && params->hard_shadows ? aligned_alloc(64, (sizeof *job->constants_host + 63) / 64 * 64) : NULL;
     }
-    if (!job || !job->constants_host || !job->tiles_host || !job->frame_host || (kd && !job->cells_host) ||
+    if (!job || !job->constants_host || !job->tiles_host || !job->frame_host || (kd && (!job->cells_host || !job->complexity_host)) ||
         (kd && params->hard_shadows && !job->light_constants_host)) {
         kernel_job_destroy(&job);
         return base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for %ux%u pixels", width, height);
@@ -268,6 +273,7 @@ void kernel_job_destroy(kernel_job **job)
         free((*job)->tiles_host);
         free((*job)->frame_host);
         free((*job)->cells_host);
+        free((*job)->complexity_host);
         free((*job)->light_constants_host);
         job_shadow_destroy(*job);
         job_msaa_destroy(*job);

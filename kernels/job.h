@@ -6,6 +6,7 @@
 #ifndef KERNELS_JOB_H
 #define KERNELS_JOB_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "kernels/accel/bvh.h"
@@ -48,6 +49,25 @@ typedef struct job_shadow_tile {
     uint32_t occlusion[16][16]; /* bit j: sample j of the pixel's last set is blocked, or is not taken */
     float visibility[16][16];   /* the fraction of the light that is seen, by all sets */
 } job_shadow_tile;
+
+/* What the filter of soft shadows reads and writes of 16 pixels side by side, a row of a tile: a line for each, 512 bytes. */
+typedef struct job_row {
+    float depth[16];      /* +infinity: no hit, or not in the image */
+    float visibility[16]; /* the fraction of the light that is seen */
+    float normal[3][16];  /* of unit length, on the viewer's side */
+    float shading[16];    /* what the light's point would lend the surface if it were seen: a cosine; 0: no hit */
+    float filtered[16];   /* visibility, as the filter leaves it; 1: no hit */
+    float lit[16];        /* shading times visibility, filtered if the job has a filter */
+} job_row;
+
+/* Constants of shading and filter; 64-byte aligned vectors first. */
+typedef struct job_filter {
+    float reciprocal[16]; /* of 1..16 */
+    float least_cosine, most_step; /* of neighbours that are mixed: between their normals; in depth, as a share of the smaller */
+    float infinity, half, one;
+    uint32_t absolute; /* 0x7fffffff: clears a sign */
+    float pad[10];
+} job_filter;
 
 /* What the kernels read besides the tree: offsets are those of the simulated machine. 64-byte aligned vectors first. */
 typedef struct job_constants {
@@ -112,13 +132,18 @@ typedef struct kernel_job {
     unsigned sample_passes;         /* sets of samples that a pixel uses one after another; 0: no shadow rays */
     uint32_t sample_mask;           /* samples of a set that are taken */
     lrb_segment samples, normals, shadows; /* these and their host memory: only if there are shadow rays */
+    lrb_segment filter, rows;       /* these: only if there are soft shadows */
+    bool filtered;                  /* there is a second pass, of a unit a tile, which filters them */
     job_constants *constants_host; /* the segments' host memory; owned */
     job_tile *tiles_host;
     job_frame_tile *frame_host;
     job_sample_set *samples_host;
     float (*normals_host)[4]; /* unit normals by triangle id, the fourth float 0 */
     job_shadow_tile *shadows_host;
+    job_filter *filter_host;
+    job_row *rows_host; /* by row of pixels, from the one above the image, and in it from a tile to its left; edges have no hits */
     job_cells *cells_host; /* two */
+    uint32_t (*complexity_host)[16]; /* of a kd-tree, by tile of the frame and block; kernel_job_complexity */
     job_constants *light_constants_host; /* NULL: there are no hard shadows */
     lrb_segment msaa_constants, sample_constants, msaa_tiles; /* these and their host memory: only of kernels with anti-aliasing */
     struct job_msaa_constants *msaa_constants_host; /* kernels/job_msaa.h */
@@ -150,11 +175,37 @@ base_status kernel_job_create_kdtree(const kdtree *tree, const scene_camera *cam
 /** Free a job; sets the pointer to NULL. */
 void kernel_job_destroy(kernel_job **job);
 
-/** Number of units of work, what a kernel's tile function is called for: tiles, or squares of them. */
-static inline uint32_t kernel_job_tiles(const kernel_job *job)
+/** Number of units of work of the first pass: tiles, or squares of them, in any order. */
+static inline uint32_t kernel_job_first_pass(const kernel_job *job)
 {
     const unsigned edge = 1u << job->unit_log2;
     return (job->tiles_x + edge - 1) / edge * ((job->tiles_y + edge - 1) / edge);
+}
+
+/** Number of units of work, what a kernel's tile function is called for. Those beyond the first pass are a second one: unit i more
+ * works on tile i, any order again, once the first pass is done. */
+static inline uint32_t kernel_job_tiles(const kernel_job *job)
+{
+    return kernel_job_first_pass(job) + (job->filtered ? job->tiles_x * job->tiles_y : 0);
+}
+
+/** Bytes from a row of pixels to the next one. */
+static inline uint32_t kernel_job_row_bytes(const kernel_job *job)
+{
+    return (job->tiles_x + 2) * (uint32_t)sizeof(job_row);
+}
+
+/** Where the rows of a tile begin in the segment of rows. */
+static inline uint32_t kernel_job_row_offset(const kernel_job *job, uint32_t tile)
+{
+    const uint32_t y = tile / job->tiles_x * JOB_TILE_PIXELS + 1, x = tile % job->tiles_x + 1;
+    return y * kernel_job_row_bytes(job) + x * (uint32_t)sizeof(job_row);
+}
+
+/** The row of 16 pixels that image pixel (x, y) is in; it is number x mod 16 there. Only of a job with soft shadows. */
+static inline const job_row *kernel_job_row(const kernel_job *job, unsigned x, unsigned y)
+{
+    return &job->rows_host[(size_t)(y + 1) * (job->tiles_x + 2) + x / JOB_TILE_PIXELS + 1];
 }
 
 /* Where in the frame a pixel's result is, and which unit of work makes it. */
@@ -176,6 +227,17 @@ static inline job_pixel kernel_job_pixel(const kernel_job *job, unsigned x, unsi
         .unit = y / edge * units_x + x / edge,
         .region = y % edge / (edge / 4) * 4 + x % edge / (edge / 4),
     };
+}
+
+/**
+ * The complexity of what the packet of image pixel (x, y) saw (Reshetov, Soupikov and Hurley 2005, 4.2): nodes of the subtree that it was
+ * traced from, 1 for a leaf, 0 if its tile could hit nothing. Known once the pixel is traced, of kernels that search entry
+ * points; of others 0. A look-up in kdtree.sizes, made by the host and charged to no machine.
+ */
+static inline uint32_t kernel_job_complexity(const kernel_job *job, unsigned x, unsigned y)
+{
+    const job_pixel p = kernel_job_pixel(job, x, y);
+    return job->complexity_host ? job->complexity_host[p.tile][p.block] : 0;
 }
 
 /** Direction of the primary ray of image pixel (x, y), the bits that the kernels trace. */

@@ -122,6 +122,40 @@ static bool create_frame(kernel_job *job)
     return true;
 }
 
+/* The limits of the filter are ours: the paper gives none. */
+static void fill_filter(job_filter *f)
+{
+    memset(f, 0, sizeof *f);
+    for (int i = 0; i < 16; i++)
+        f->reciprocal[i] = 1.0f / (float)(i + 1);
+    f->least_cosine = 0.95f;
+    f->most_step = 0.02f;
+    f->infinity = INFINITY;
+    f->half = 0.5f;
+    f->one = 1.0f;
+    f->absolute = 0x7fffffffu;
+}
+
+/* Rows of pixels without hits: the window of the filter reaches a pixel to the left of the image and above it, two to the right and below. */
+static bool create_rows(kernel_job *job)
+{
+    const size_t rows = job->tiles_y * JOB_TILE_PIXELS + 3, count = rows * (job->tiles_x + 2);
+    job->filtered = job->params.filter;
+    job->rows.size = count * sizeof *job->rows_host;
+    job->filter_host = aligned_alloc(64, sizeof *job->filter_host);
+    job->rows_host = aligned_alloc(64, job->rows.size);
+    if (!job->filter_host || !job->rows_host)
+        return false;
+    fill_filter(job->filter_host);
+    memset(job->rows_host, 0, job->rows.size);
+    for (size_t i = 0; i < count; i++)
+        for (int x = 0; x < 16; x++) {
+            job->rows_host[i].depth[x] = INFINITY;
+            job->rows_host[i].filtered[x] = 1.0f;
+        }
+    return true;
+}
+
 static base_status create_hard(kernel_job *job, base_error *err)
 {
     if (create_frame(job))
@@ -145,7 +179,7 @@ base_status job_shadow_create(kernel_job *job, const scene_light *light, base_er
     job->sample_mask = samples < 16 ? four_samples : 0xffffu;
     job->samples.size = sets * sizeof *job->samples_host;
     job->samples_host = aligned_alloc(64, job->samples.size);
-    if (create_frame(job) && points && job->samples_host) {
+    if (create_frame(job) && create_rows(job) && points && job->samples_host) {
         light_samples_fill(job->params.net, job->params.assignment, sets, points);
         fill_samples(job, points, sets);
     } else {
@@ -160,6 +194,8 @@ void job_shadow_destroy(kernel_job *job)
     free(job->samples_host);
     free(job->normals_host);
     free(job->shadows_host);
+    free(job->filter_host);
+    free(job->rows_host);
 }
 
 unsigned job_shadow_set(const kernel_job *job, unsigned pixel, unsigned pass)
@@ -173,24 +209,34 @@ static float dot(const float a[3], const float b[3])
     return fmaf(a[2], b[2], fmaf(a[1], b[1], a[0] * b[0]));
 }
 
-/* Where shadow rays of a pixel start, and whether any of the light's corners is above the surface there. */
-static bool start_of(const kernel_job *job, unsigned x, unsigned y, float org[3])
+/* The lifted hit point of a pixel, and its surface's normal on the viewer's side; false without a hit. */
+static bool lifted_hit_of(const kernel_job *job, unsigned x, unsigned y, float point[3], float n[3])
 {
     const job_constants *k = job->constants_host;
     const job_pixel p = kernel_job_pixel(job, x, y);
     const job_frame_tile *tile = &job->frame_host[p.tile];
     const uint32_t id = tile->id[p.block][p.pixel];
-    float d[3], n[3], corner[3], highest = -INFINITY;
+    float d[3];
     if (id == JOB_NO_HIT)
         return false;
     kernel_job_direction(job, x, y, d);
-    memcpy(n, job->normals_host[id], sizeof n);
-    const float side = dot(n, d) > 0.0f ? -1.0f : 1.0f;
+    const float side = dot(job->normals_host[id], d) > 0.0f ? -1.0f : 1.0f;
     for (int axis = 0; axis < 3; axis++) {
-        n[axis] *= side;
-        org[axis] = fmaf(n[axis], k->light.lift, fmaf(d[axis], tile->t[p.block][p.pixel], k->origin_box[axis]));
-        corner[axis] = k->light.corner[axis] - org[axis];
+        n[axis] = job->normals_host[id][axis] * side;
+        point[axis] = fmaf(n[axis], k->light.lift, fmaf(d[axis], tile->t[p.block][p.pixel], k->origin_box[axis]));
     }
+    return true;
+}
+
+/* Where shadow rays of a pixel start, and whether any of the light's corners is above the surface there. */
+static bool start_of(const kernel_job *job, unsigned x, unsigned y, float org[3])
+{
+    const job_constants *k = job->constants_host;
+    float n[3], corner[3], highest = -INFINITY;
+    if (!lifted_hit_of(job, x, y, org, n))
+        return false;
+    for (int axis = 0; axis < 3; axis++)
+        corner[axis] = k->light.corner[axis] - org[axis];
     if (!(dot(corner, k->light.normal) < 0.0f))
         return false;
     const float *along[3] = {k->light.u, k->light.uv, k->light.v};
@@ -213,4 +259,16 @@ bool job_shadow_ray_of(const kernel_job *job, unsigned x, unsigned y, unsigned p
         out->dir[axis] = corner + set->delta[axis][sample];
     }
     return true;
+}
+
+bool job_hard_shadow_ray_of(const kernel_job *job, unsigned x, unsigned y, job_shadow_ray *out)
+{
+    float end[3], n[3];
+    if (!lifted_hit_of(job, x, y, end, n))
+        return false;
+    for (int axis = 0; axis < 3; axis++) {
+        out->org[axis] = job->constants_host->light.point[axis];
+        out->dir[axis] = end[axis] - out->org[axis];
+    }
+    return dot(n, out->dir) < 0.0f;
 }

@@ -20,7 +20,7 @@ base_status job_shadow_create(kernel_job *job, const scene_light *light, base_er
 /** Free what job_shadow_create has allocated. */
 void job_shadow_destroy(kernel_job *job);
 
-/* A shadow ray: points org + t*dir, the light is at t = 1. */
+/* A shadow ray: points org + t*dir. Between 0 and 1 it goes from a hit to a sample of the light, or from a point light to a hit. */
 typedef struct job_shadow_ray {
     float org[3], dir[3];
 } job_shadow_ray;
@@ -37,5 +37,8 @@ unsigned job_shadow_set(const kernel_job *job, unsigned pixel, unsigned pass);
  * Returns false if the pixel has no hit, or sees the light from behind or from below its own surface: nothing is traced.
  */
 bool job_shadow_ray_of(const kernel_job *job, unsigned x, unsigned y, unsigned pass, unsigned sample, job_shadow_ray *out);
+
+/** The same from the light's point to the pixel's hit, of a job with params.hard_shadows. */
+bool job_hard_shadow_ray_of(const kernel_job *job, unsigned x, unsigned y, job_shadow_ray *out);
 
 #endif

@@ -1,7 +1,8 @@
 /* What a kernel is: a function from a tile number to pixels, counters and events, with a name and parameters.
  *
  * A kernel's source is compiled once per level (lrbni/ctx.h); its descriptor in registry.c holds the three functions.
- * Tiles are independent: any order, any host thread, the same results.
+ * Tiles are independent: any order, any host thread, the same results. Those of a second pass (kernel_job_first_pass) come after
+ * all of the first.
  */
 #ifndef KERNELS_KERNEL_H
 #define KERNELS_KERNEL_H
@@ -44,8 +45,9 @@ typedef enum kernel_phase {
     KERNEL_PHASE_TRAVERSAL,    /* box tests, stack */
     KERNEL_PHASE_CULLING,      /* triangles against frusta, back faces */
     KERNEL_PHASE_INTERSECTION, /* triangles against rays, hit records */
-    KERNEL_PHASE_SHADING,      /* hit points, what light they could see and how much of it they do */
+    KERNEL_PHASE_SHADING,      /* hit points, what light they could see and how much of it they do, and what it lends them */
     KERNEL_PHASE_ENTRY,        /* entry-point search for a tile */
+    KERNEL_PHASE_FILTER,       /* means of visibility over neighbouring pixels */
     KERNEL_PHASE_SILHOUETTES,  /* which pixels edges of silhouettes cross */
     KERNEL_PHASE_COUNT
 } kernel_phase;
@@ -59,9 +61,8 @@ enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, 
        KERNEL_SOURCE_LANE_CULL, KERNEL_SOURCE_MFT_SHRINK, KERNEL_SOURCE_MFT_SOFT,
        KERNEL_SOURCE_KD16, KERNEL_SOURCE_KD16_TILE, KERNEL_SOURCE_KD16_PRIMARY, KERNEL_SOURCE_TILE_BOUNDS, KERNEL_SOURCE_ENTRY_SEARCH,
        KERNEL_SOURCE_ENTRY_END, KERNEL_SOURCE_ENTRY_CULL, KERNEL_SOURCE_MLRTA_PRIMARY, KERNEL_SOURCE_HARD_SHADOW,
-       KERNEL_SOURCE_KD16_SHADOW, KERNEL_SOURCE_HIT_BOUNDS, KERNEL_SOURCE_MLRTA_SHADOW, KERNEL_SOURCE_MFT_PRIMARY,
-       KERNEL_SOURCE_SILHOUETTES, KERNEL_SOURCE_MFT_MSAA,
-       KERNEL_SOURCE_END };
+       KERNEL_SOURCE_KD16_SHADOW, KERNEL_SOURCE_HIT_BOUNDS, KERNEL_SOURCE_MLRTA_SHADOW, KERNEL_SOURCE_FILTER,
+       KERNEL_SOURCE_PACKETS256, KERNEL_SOURCE_SILHOUETTES, KERNEL_SOURCE_MFT_MSAA, KERNEL_SOURCE_END };
 
 /* The name of a tile function at the level that is being compiled: mft_primary_count. */
 #if defined(LRB_LEVEL) && LRB_LEVEL == 0

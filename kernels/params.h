@@ -33,6 +33,7 @@ typedef struct kernel_params {
     unsigned assignment;    /* kernel_assignment */
     unsigned interleaved;   /* 1: neighbouring pixels use different sets */
     unsigned shrink;        /* kernel_shrink */
+    unsigned filter;        /* 1: a second pass filters soft shadows (kernels/visibility_filter.c) */
     unsigned empty_percent, covered_planes, min_area, perfect_splits, empty_occluders; /* of the kd-tree (kernels/accel/kdtree.h) */
     unsigned mailbox;       /* 1: a packet remembers which triangles it has tested */
     unsigned its, mts;      /* edge of the initial tile, 16 << its pixels; tiles of 4 << mts pixels or fewer are not split */
@@ -73,6 +74,7 @@ typedef enum kernel_param {
     KERNEL_PARAM_DIVERGENT_PACKETS,
     KERNEL_PARAM_ENDS,
     KERNEL_PARAM_SHADOW_PACKETS,
+    KERNEL_PARAM_FILTER,
     KERNEL_PARAM_MARKING,
     KERNEL_PARAM_RETRACE,
     KERNEL_PARAM_COUNT

@@ -2,13 +2,15 @@
 
 #include <string.h>
 
-const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection", "shading", "entry search", "silhouettes"};
+const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection", "shading", "entry search", "filter", "silhouettes"};
 
 /* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count, mft_primary_record and mft_primary_annotated */
 #define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record, name##_annotated
 KERNEL_TILES(packet16_primary);
+KERNEL_TILES(packet256_primary);
 KERNEL_TILES(mft_primary);
 KERNEL_TILES(packet16_soft);
+KERNEL_TILES(packet256_soft);
 KERNEL_TILES(mft_soft);
 KERNEL_TILES(mft_msaa);
 KERNEL_TILES(kd16_primary);
@@ -28,8 +30,8 @@ static const uint64_t tracing_counters = BIT(rays) | BIT(rays_primary) | BIT(tri
                                          BIT(aabb_tests) | BIT(isect_tests) | BIT(traversed_cells) | BIT(traversed_inner) |
                                          BIT(units_common) | BIT(units_blend) | BIT(units_zero);
 
-static const uint64_t soft_params = PARAM(NET) | PARAM(ASSIGNMENT) | PARAM(INTERLEAVED);
-static const uint64_t shading_phase = UINT64_C(1) << KERNEL_PHASE_SHADING;
+static const uint64_t soft_params = PARAM(NET) | PARAM(ASSIGNMENT) | PARAM(INTERLEAVED) | PARAM(FILTER);
+static const uint64_t soft_phases = UINT64_C(1) << KERNEL_PHASE_SHADING | UINT64_C(1) << KERNEL_PHASE_FILTER;
 
 static const uint64_t kdtree_params = PARAM(CULL_BACKFACE) | PARAM(EMPTY_PERCENT) | PARAM(COVERED_PLANES) | PARAM(MIN_AREA) |
                                       PARAM(PERFECT_SPLITS) | PARAM(MAILBOX) | PARAM(DIVERGENT_PACKETS);
@@ -44,7 +46,7 @@ static const uint64_t entry_counters = BIT(ep_cells) | BIT(ep_inner) | BIT(end_t
                                        BIT(units_empty_tiles) | BIT(units_divergent_tiles);
 
 /* The parameters that all kernels on the kd-tree have. */
-#define KDTREE_DEFAULTS .empty_percent = 10, .covered_planes = 1, .min_area = 1000, .perfect_splits = 1, .mailbox = 1, .light_scale = 1
+#define KDTREE_DEFAULTS .empty_percent = 10, .covered_planes = 1, .min_area = 100, .perfect_splits = 1, .mailbox = 1, .light_scale = 1
 
 const kernel_info *kernel_list(size_t *count)
 {
@@ -62,6 +64,17 @@ const kernel_info *kernel_list(size_t *count)
             .annotated = packet16_primary_annotated,
         },
         {
+            .name = "packet256-primary",
+            .summary = "primary rays in groups of 16 packets of 4x4 through the shallow BVH of mft-primary: the MFT paper's other reference",
+            .paper = "Benthin and Wald 2009, 5.2",
+            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16, .light_scale = 1},
+            .counters = tracing_counters | BIT(aabb_group_tests) | BIT(units_groups) | BIT(units_packets),
+            .params = tracing_params,
+            .phases = tracing_phases,
+            .tile = {packet256_primary_native, packet256_primary_count, packet256_primary_record},
+            .annotated = packet256_primary_annotated,
+        },
+        {
             .name = "mft-primary",
             .summary = "primary rays in groups of 16 frusta of 4x4 through a shallow BVH: multi-frusta tracing",
             .paper = "Benthin and Wald 2009, 4 and appendix A: P-Frusta",
@@ -76,22 +89,34 @@ const kernel_info *kernel_list(size_t *count)
             .name = "packet16-soft",
             .summary = "soft shadows, the 16 samples of a hit point a packet, through a deep BVH: the MFT paper's reference",
             .paper = "Benthin and Wald 2009, 5: S-Packet",
-            .defaults = {.cull_backface = 0, .max_leaf = 2, .bins = 16, .interleaved = 1, .samples = 16, .light_scale = 1},
+            .defaults = {.cull_backface = 0, .max_leaf = 2, .bins = 16, .interleaved = 1, .filter = 1, .samples = 16, .light_scale = 1},
             .counters = tracing_counters | BIT(rays_shadow) | BIT(units_packets) | BIT(units_shadow_packets),
             .params = tracing_params | soft_params,
-            .phases = tracing_phases | shading_phase,
+            .phases = tracing_phases | soft_phases,
             .tile = {packet16_soft_native, packet16_soft_count, packet16_soft_record},
             .annotated = packet16_soft_annotated,
+        },
+        {
+            .name = "packet256-soft",
+            .summary = "soft shadows in groups of 16 hit points with a packet of 16 rays each, through the shallow BVH of mft-soft: the MFT paper's other reference",
+            .paper = "Benthin and Wald 2009, 5.2",
+            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16, .interleaved = 1, .filter = 1, .samples = 16, .light_scale = 1},
+            .counters = tracing_counters | BIT(aabb_group_tests) | BIT(rays_shadow) | BIT(units_groups) | BIT(units_packets) |
+                        BIT(units_shadow_groups) | BIT(units_shadow_packets),
+            .params = tracing_params | soft_params,
+            .phases = tracing_phases | soft_phases,
+            .tile = {packet256_soft_native, packet256_soft_count, packet256_soft_record},
+            .annotated = packet256_soft_annotated,
         },
         {
             .name = "mft-soft",
             .summary = "soft shadows, groups of 16 hit points with a frustum of 16 rays each, through a shallow BVH: multi-frusta tracing",
             .paper = "Benthin and Wald 2009, 4 and appendix A: S-Frusta",
-            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16, .interleaved = 1, .samples = 16, .light_scale = 1},
+            .defaults = {.cull_backface = 0, .max_leaf = 8, .bins = 16, .interleaved = 1, .filter = 1, .samples = 16, .light_scale = 1},
             .counters = tracing_counters | BIT(rays_shadow) | BIT(additional_tests) | BIT(additional_tests16) | BIT(units_groups) |
                         BIT(units_frusta) | BIT(units_shadow_groups) | BIT(units_shadow_frusta),
             .params = tracing_params | soft_params | PARAM(SHRINK),
-            .phases = tracing_phases | shading_phase,
+            .phases = tracing_phases | soft_phases,
             .tile = {mft_soft_native, mft_soft_count, mft_soft_record},
             .annotated = mft_soft_annotated,
         },

@@ -35,7 +35,18 @@ enum {
     SCRATCH_LANE_PLANE = SCRATCH_LANE_EDGES + 576,   /* 64: distance of its plane */
     SCRATCH_INTERVALS = SCRATCH_LANE_PLANE + 64,     /* 2 x 3 x 64: intervals of the directions, widened: smallest, largest */
     SCRATCH_RECTANGLE = SCRATCH_INTERVALS + 384,     /* 4 x 64: part of the light that is left: smallest and largest a, the same of b */
-    SCRATCH_END = SCRATCH_RECTANGLE + 256
+    SCRATCH_SHADING = SCRATCH_RECTANGLE + 256,       /* 64: what the light's point would lend the hit points */
+    SCRATCH_END = SCRATCH_SHADING + 64,
+
+    /* Groups of 16 packets of 16 rays (kernels/packet/packets256.h): by axis where there are three, then by packet. */
+    SCRATCH_PACKET_NEAR = SCRATCH_END,                      /* 3 x 16 x 64: reciprocals of the directions, for near planes ... */
+    SCRATCH_PACKET_BACK = SCRATCH_PACKET_NEAR + 3072,       /* 3 x 16 x 64: ... for those of rays that go back ... */
+    SCRATCH_PACKET_FAR = SCRATCH_PACKET_BACK + 3072,        /* 3 x 16 x 64: ... and for far planes */
+    SCRATCH_PACKET_ORIGIN = SCRATCH_PACKET_FAR + 3072,      /* 16 x 64: of shadow rays: x y z 0, four times */
+    SCRATCH_PACKET_NEGATIVE = SCRATCH_PACKET_ORIGIN + 1024, /* 3 x 64: masks of the rays that go back ... */
+    SCRATCH_PACKET_STRICT = SCRATCH_PACKET_NEGATIVE + 192,  /* 3 x 64: ... and of those that have a sign */
+    SCRATCH_PACKET_MET = SCRATCH_PACKET_STRICT + 192,       /* 2 x 64: masks of the rays that meet the boxes of a pair */
+    SCRATCH_PACKET_END = SCRATCH_PACKET_MET + 128
 };
 
 #endif

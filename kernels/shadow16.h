@@ -17,8 +17,10 @@
 typedef struct shadow16 {
     lrb_ptr constants, scratch, normals, samples;
     lrb_ptr frame, shadows, pixels; /* of the tile: of its first block */
+    lrb_ptr filter, rows;           /* constants of shading; the tile's rows of pixels */
+    lrb_r64 row_bytes;
     lrb_r64 block;
-    bool cull, interleaved;
+    bool cull, interleaved, filtered;
     uint32_t sample_mask, passes;
     kernel_counts *n;
 } shadow16;
@@ -34,9 +36,13 @@ LRB_INLINE shadow16 shadow16_of(const lrb_ctx *c, const kernel_job *job, uint32_
         .frame = lrb_segment_at(job->frame, tile * (uint32_t)sizeof(job_frame_tile)),
         .shadows = lrb_segment_at(job->shadows, tile * (uint32_t)sizeof(job_shadow_tile)),
         .pixels = lrb_segment_at(job->tiles, tile * (uint32_t)sizeof(job_tile) + (uint32_t)offsetof(job_tile, pixels)),
+        .filter = lrb_segment_at(job->filter, 0),
+        .rows = lrb_segment_at(job->rows, kernel_job_row_offset(job, tile)),
+        .row_bytes = lrb_imm(kernel_job_row_bytes(job)),
         .block = lrb_imm(0),
         .cull = job->params.cull_backface,
         .interleaved = job->params.interleaved,
+        .filtered = job->filtered,
         .sample_mask = job->sample_mask,
         .passes = job->sample_passes,
         .n = n,
@@ -115,6 +121,66 @@ LRB_INLINE void shadow16_corners(lrb_ctx *c, const shadow16 *w, int axis, lrb_v1
     *hi = lrb_max_ps(c, half, lrb_max_ps(c, corner[2], corner[3]));
 }
 
+/* The four rows of pixels of a block, and their lanes. */
+typedef struct shadow16_rows {
+    lrb_ptr at[4]; /* of the first pixel's depth */
+    lrb_k16 lanes[4];
+} shadow16_rows;
+
+LRB_INLINE shadow16_rows shadow16_rows_of(lrb_ctx *c, const shadow16 *w)
+{
+    shadow16_rows r;
+    lrb_r64 down = lrb_shl(c, lrb_shr(c, w->block, 2), 2);
+    down = lrb_imul(c, down, w->row_bytes);
+    lrb_r64 right = lrb_shl(c, lrb_and(c, w->block, lrb_imm(3)), 4);
+    r.at[0] = lrb_lea(c, w->rows, lrb_add(c, down, right), 1, 0);
+    for (int j = 0; j < 4; j++) {
+        r.lanes[j] = lrb_kmov_kr(c, lrb_imm(UINT64_C(0xf) << 4 * j));
+        if (j > 0)
+            r.at[j] = lrb_lea(c, r.at[j - 1], w->row_bytes, 1, 0);
+    }
+    return r;
+}
+
+/* A block's values into its rows; `plane`: offset in job_row. */
+LRB_INLINE void shadow16_store_rows(lrb_ctx *c, const shadow16_rows *r, size_t plane, lrb_v16f values)
+{
+    for (int j = 0; j < 4; j++)
+        lrb_packstorel_ps(c, lrb_at(r->at[j], (int32_t)plane), r->lanes[j], values);
+}
+
+/* 1/sqrt(x) for x above 0, by the machine's estimate and two Newton steps: relative error below 2^-21. */
+LRB_INLINE lrb_v16f shadow16_rsqrt(lrb_ctx *c, const shadow16 *w, lrb_v16f x)
+{
+    lrb_v16f r = lrb_rsqrtlut_ps(c, x);
+    for (int step = 0; step < 2; step++) {
+        lrb_v16f error = lrb_msubr23c1_ps(c, lrb_mul_ps(c, x, r), r);
+        lrb_v16f half = lrb_mul_ps_s3(c, r, lrb_1to16_ps(lrb_at(w->filter, (int32_t)offsetof(job_filter, half))));
+        r = lrb_madd231_ps(c, r, half, error);
+    }
+    return r;
+}
+
+/* Shading by the light's point, of the cosine at the hit point; it and the normals go to the rows of pixels. */
+LRB_INLINE void shadow16_shade(lrb_ctx *c, const shadow16 *w, lrb_k16 hits, lrb_v16f zero, const lrb_v16f n[3], const lrb_v16f o[3])
+{
+    lrb_v16f cosine = zero, square = zero;
+    for (int axis = 0; axis < 3; axis++) {
+        lrb_v16f to = lrb_subr_ps_s3(c, o[axis], lrb_1to16_ps(SHADOW16_LIGHT(w->constants, point[axis])));
+        cosine = axis ? lrb_madd231_ps(c, cosine, n[axis], to) : lrb_mul_ps(c, n[axis], to);
+        square = axis ? lrb_madd231_ps(c, square, to, to) : lrb_mul_ps(c, to, to);
+    }
+    square = lrb_max_ps_s3(c, square, lrb_1to16_ps(RAYS16_CONSTANT(w->constants, tiny)));
+    cosine = lrb_max_ps(c, cosine, zero);
+    lrb_v16f shading = lrb_mask_mul_ps(c, zero, hits, cosine, shadow16_rsqrt(c, w, square));
+    const shadow16_rows rows = shadow16_rows_of(c, w);
+    for (int axis = 0; axis < 3; axis++)
+        shadow16_store_rows(c, &rows, offsetof(job_row, normal[axis]), n[axis]);
+    shadow16_store_rows(c, &rows, offsetof(job_row, shading), shading);
+    if (!w->filtered)
+        lrb_store_ps(c, lrb_at(w->scratch, SCRATCH_SHADING), shading);
+}
+
 /* What a block's shadow rays begin with. */
 typedef struct shadow16_start {
     lrb_k16 hits, alive;   /* pixels with a hit; those of them that may see the light */
@@ -142,6 +208,7 @@ LRB_INLINE shadow16_start shadow16_begin(lrb_ctx *c, const shadow16 *w)
         return r;
     shadow16_normals(c, w, frame, r.hits, r.zero, n);
     shadow16_origins(c, w, r.hits, r.zero, t, n, o);
+    shadow16_shade(c, w, r.hits, r.zero, n, o);
     for (int axis = 0; axis < 3; axis++) {
         lrb_v16f corner[4];
         shadow16_corners(c, w, axis, o[axis], corner, &r.lo[axis], &r.hi[axis]);
@@ -244,6 +311,22 @@ LRB_INLINE void shadow16_end_pass(lrb_ctx *c, const shadow16 *w)
     lrb_store_ps(c, lrb_at(w->scratch, SCRATCH_SEEN), seen);
 }
 
+/* Visibility and depth into the rows of pixels; lit, too, if no filter comes. */
+LRB_INLINE void shadow16_end_rows(lrb_ctx *c, const shadow16 *w, lrb_k16 hits, lrb_v16f visibility)
+{
+    const shadow16_rows rows = shadow16_rows_of(c, w);
+    lrb_ptr frame = lrb_lea(c, w->frame, lrb_shl(c, w->block, 6), 1, 0);
+    lrb_v16f depth = lrb_load_1to16_ps(c, lrb_at(w->filter, (int32_t)offsetof(job_filter, infinity)));
+    depth = lrb_mask_load_ps(c, depth, hits, lrb_at(frame, (int32_t)offsetof(job_frame_tile, t)));
+    shadow16_store_rows(c, &rows, offsetof(job_row, depth), depth);
+    shadow16_store_rows(c, &rows, offsetof(job_row, visibility), visibility);
+    if (w->filtered)
+        return;
+    lrb_v16f lit = lrb_castpi_ps(lrb_xor_pi(c, lrb_castps_pi(visibility), lrb_castps_pi(visibility)));
+    lit = lrb_mask_mul_ps_s3(c, lit, hits, visibility, lrb_full_ps(lrb_at(w->scratch, SCRATCH_SHADING)));
+    shadow16_store_rows(c, &rows, offsetof(job_row, lit), lit);
+}
+
 /** A block's results: 1 for pixels without a hit. */
 LRB_INLINE void shadow16_end(lrb_ctx *c, const shadow16 *w, lrb_k16 hits)
 {
@@ -255,6 +338,7 @@ LRB_INLINE void shadow16_end(lrb_ctx *c, const shadow16 *w, lrb_k16 hits)
     lrb_store_ps(c, lrb_at(shadows, (int32_t)offsetof(job_shadow_tile, visibility)), visibility);
     lrb_v16i occlusion = lrb_load_pi(c, lrb_at(w->scratch, SCRATCH_OCCLUSION));
     lrb_store_pi(c, lrb_at(shadows, (int32_t)offsetof(job_shadow_tile, occlusion)), occlusion);
+    shadow16_end_rows(c, w, hits, visibility);
 }
 
 #endif

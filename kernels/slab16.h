@@ -47,14 +47,19 @@ typedef struct slab16 {
     lrb_ptr near_plane[3], far_plane[3]; /* COMMON: addresses of the first box's planes in scratch */
 } slab16;
 
-LRB_INLINE void slab16_setup_zero(lrb_ctx *c, slab16 *s, lrb_ptr constants, const lrb_v16f lo[3], const lrb_v16f hi[3])
+/* The reciprocals of the largest component forward and back, of lanes that may hold 0. */
+LRB_INLINE void slab16_setup_zero(lrb_ctx *c, slab16 *s, lrb_ptr constants, int axis, lrb_v16f lo, lrb_v16f hi)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        lrb_v16f forward = lrb_max_ps_s3(c, hi[axis], lrb_1to16_ps(RAYS16_CONSTANT(constants, tiny)));
-        lrb_v16f back = lrb_min_ps_s3(c, lo[axis], lrb_1to16_ps(RAYS16_CONSTANT(constants, minus_tiny)));
-        s->near_rcp[axis] = rays16_reciprocal(c, forward);
-        s->back_rcp[axis] = rays16_reciprocal(c, back);
-    }
+    lrb_v16f forward = lrb_max_ps_s3(c, hi, lrb_1to16_ps(RAYS16_CONSTANT(constants, tiny)));
+    lrb_v16f back = lrb_min_ps_s3(c, lo, lrb_1to16_ps(RAYS16_CONSTANT(constants, minus_tiny)));
+    s->near_rcp[axis] = rays16_reciprocal(c, forward);
+    s->back_rcp[axis] = rays16_reciprocal(c, back);
+}
+
+/* The reciprocal of the largest magnitude, of lanes that have a sign. */
+LRB_INLINE void slab16_setup_strict(lrb_ctx *c, slab16 *s, int axis, lrb_v16f lo, lrb_v16f hi)
+{
+    s->near_rcp[axis] = rays16_reciprocal(c, lrb_mask_mov_ps(c, hi, s->negative[axis], lo));
 }
 
 /* One sign for all active lanes, each of which has one, on every axis? Then the near planes are the same for all. */
@@ -75,26 +80,55 @@ LRB_INLINE bool slab16_setup_common(lrb_ctx *c, slab16 *s, lrb_ptr scratch, lrb_
     return true;
 }
 
+/* The vectors that all lanes share; what a path does not use is defined all the same. */
+LRB_INLINE void slab16_begin(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr scratch, lrb_v16f slack)
+{
+    s->infinity = lrb_load_ps(c, RAYS16_CONSTANT(constants, infinity));
+    s->zero = lrb_castpi_ps(lrb_xor_pi(c, lrb_castps_pi(slack), lrb_castps_pi(slack)));
+    for (int axis = 0; axis < 3; axis++) {
+        s->near_rcp[axis] = s->back_rcp[axis] = s->far_rcp[axis] = s->zero;
+        s->near_plane[axis] = s->far_plane[axis] = scratch;
+    }
+}
+
+/* Widen the interval of one axis and find the lanes' signs on it. */
+LRB_INLINE void slab16_signs(lrb_ctx *c, slab16 *s, int axis, lrb_v16f slack, lrb_k16 active, lrb_v16f *lo, lrb_v16f *hi)
+{
+    *lo = lrb_sub_ps(c, *lo, slack);
+    *hi = lrb_add_ps(c, *hi, slack);
+    s->negative[axis] = lrb_mask_cmplt_ps(c, active, *hi, s->zero);
+    lrb_k16 positive = lrb_mask_cmplt_ps(c, active, s->zero, *lo);
+    s->strict[axis] = lrb_kor(c, positive, s->negative[axis]);
+}
+
+/* The reciprocal of the smallest magnitude, of lanes that have a sign. */
+LRB_INLINE void slab16_setup_far(lrb_ctx *c, slab16 *s, int axis, lrb_v16f lo, lrb_v16f hi)
+{
+    lrb_v16f smallest = lrb_mask_mov_ps(c, lo, s->negative[axis], hi);
+    s->far_rcp[axis] = rays16_reciprocal(c, smallest);
+}
+
 /* Widen the intervals and find the lanes' signs; returns the lanes of `active` that have one on every axis. */
 LRB_INLINE lrb_k16 slab16_widen(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr scratch, lrb_v16f slack, lrb_k16 active,
                                 lrb_v16f lo[3], lrb_v16f hi[3])
 {
     lrb_k16 all_strict = active;
-    s->infinity = lrb_load_ps(c, RAYS16_CONSTANT(constants, infinity));
-    s->zero = lrb_castpi_ps(lrb_xor_pi(c, lrb_castps_pi(slack), lrb_castps_pi(slack)));
+    slab16_begin(c, s, constants, scratch, slack);
     for (int axis = 0; axis < 3; axis++) {
-        s->back_rcp[axis] = s->zero; /* what the chosen path does not use is defined all the same */
-        s->near_plane[axis] = s->far_plane[axis] = scratch;
-        lo[axis] = lrb_sub_ps(c, lo[axis], slack);
-        hi[axis] = lrb_add_ps(c, hi[axis], slack);
-        s->negative[axis] = lrb_mask_cmplt_ps(c, active, hi[axis], s->zero);
-        lrb_k16 positive = lrb_mask_cmplt_ps(c, active, s->zero, lo[axis]);
-        s->strict[axis] = lrb_kor(c, positive, s->negative[axis]);
+        slab16_signs(c, s, axis, slack, active, &lo[axis], &hi[axis]);
         all_strict = lrb_kand(c, all_strict, s->strict[axis]);
-        lrb_v16f smallest = lrb_mask_mov_ps(c, lo[axis], s->negative[axis], hi[axis]);
-        s->far_rcp[axis] = rays16_reciprocal(c, smallest);
+        slab16_setup_far(c, s, axis, lo[axis], hi[axis]);
     }
     return all_strict;
+}
+
+/* Count the packet or group by its path. */
+LRB_INLINE void slab16_count(const slab16 *s, kernel_counts *n)
+{
+    if (s->path == SLAB16_ZERO)
+        n->n[KERNEL_units_zero]++;
+    else
+        n->n[s->path == SLAB16_COMMON ? KERNEL_units_common : KERNEL_units_blend]++;
 }
 
 /**
@@ -113,14 +147,14 @@ LRB_INLINE void slab16_setup(lrb_ctx *c, slab16 *s, lrb_ptr constants, lrb_ptr s
     lrb_k16 some_zero = lrb_kxor(c, all_strict, active);
     if (lrb_jnz(c, lrb_kortest(c, some_zero, some_zero))) {
         s->path = SLAB16_ZERO;
-        n->n[KERNEL_units_zero]++;
-        slab16_setup_zero(c, s, constants, lo, hi);
-        return;
+        for (int axis = 0; axis < 3; axis++)
+            slab16_setup_zero(c, s, constants, axis, lo[axis], hi[axis]);
+    } else {
+        for (int axis = 0; axis < 3; axis++)
+            slab16_setup_strict(c, s, axis, lo[axis], hi[axis]);
+        s->path = slab16_setup_common(c, s, scratch, active) ? SLAB16_COMMON : SLAB16_BLEND;
     }
-    for (int axis = 0; axis < 3; axis++)
-        s->near_rcp[axis] = rays16_reciprocal(c, lrb_mask_mov_ps(c, hi[axis], s->negative[axis], lo[axis]));
-    s->path = slab16_setup_common(c, s, scratch, active) ? SLAB16_COMMON : SLAB16_BLEND;
-    n->n[s->path == SLAB16_COMMON ? KERNEL_units_common : KERNEL_units_blend]++;
+    slab16_count(s, n);
 }
 
 /* One of a box's planes, relative to each lane's origin. */

@@ -1,4 +1,4 @@
-/* Traversal of the BVH by 16 lanes, with one origin or 16: packets of rays and groups of frusta alike. docs/kernels.md.
+/* Traversal of the BVH by 16 lanes, with one origin or 16: packets of rays, groups of frusta and of packets alike. docs/kernels.md.
  *
  * The stack holds nodes and masks, no distances, as in Benthin and Wald's appendix A: distances are checked again at
  * the children. The nearer child is first: the one that any lane in both enters first. Lanes that look for any hit leave
@@ -7,6 +7,7 @@
 #ifndef KERNELS_TRAVERSAL16_H
 #define KERNELS_TRAVERSAL16_H
 
+#include "kernels/packet/packets256.h"
 #include "kernels/slab16.h"
 
 #undef LRB_SOURCE
@@ -20,6 +21,8 @@ typedef struct traversal16 {
     lrb_v16f origin; /* x y z 0, four times */
     uint32_t root_link, root_count;
     bool any;   /* a constant: any hit will do, s->alive are the lanes that still look for one */
+    bool packets; /* a constant: a lane is a packet of 16 rays, tested one by one (kernels/packet/packets256.h) */
+    lrb_ptr nearest; /* then: distances of the rays' nearest hits, 64 bytes a packet, unless any hit will do */
     bool empty; /* a tree without triangles: nothing is launched */
     traversal16_leaf *leaf; /* a constant, so that it is inlined */
     void *user;
@@ -64,39 +67,59 @@ LRB_INLINE lrb_ptr traversal16_push(lrb_ctx *c, lrb_ptr top, lrb_r64 node_offset
     return lrb_lea(c, top, lrb_imm(0), 1, SCRATCH_STACK_ENTRY);
 }
 
-/* From an inner node to its nearer child, pushing the other; false if no lane meets either. */
-LRB_INLINE bool traversal16_descend(lrb_ctx *c, const traversal16 *t, const slab16 *s, slab16_path path, traversal16_node *node,
-                                    lrb_ptr *top)
+/* Counts of an inner node that the lanes of m visit. */
+LRB_INLINE void traversal16_count(const traversal16 *t, lrb_k16 m)
 {
-    lrb_v16f entry0, entry1;
-    lrb_ptr pair = lrb_lea(c, t->nodes, node->link, 1, 0);
     t->n->n[KERNEL_traversed_cells]++;
     t->n->n[KERNEL_traversed_inner]++;
-    t->n->n[KERNEL_aabb_tests] += 2;
+    if (t->packets)
+        t->n->n[KERNEL_aabb_group_tests] += 2;
+    t->n->n[KERNEL_aabb_tests] += t->packets ? 2 * (unsigned)__builtin_popcount(m.bits) : 2;
+}
+
+/* A pair of boxes into scratch, relative to the origin if it is common. */
+LRB_INLINE void traversal16_boxes(lrb_ctx *c, const traversal16 *t, const slab16 *s, lrb_ptr pair)
+{
     lrb_v16f boxes;
     if (s->own_origins)
         boxes = lrb_load_ps(c, lrb_at(pair, 0));
     else
         boxes = lrb_subr_ps_s3(c, t->origin, lrb_full_ps(lrb_at(pair, 0)));
     lrb_store_ps(c, lrb_at(t->scratch, SCRATCH_BOXES), boxes);
-    lrb_k16 m0 = slab16_test(c, s, path, t->scratch, 0, node->m, &entry0);
-    lrb_k16 m1 = slab16_test(c, s, path, t->scratch, 32, node->m, &entry1);
+}
+
+/* From an inner node to its nearer child, pushing the other; false if no lane meets either. */
+LRB_INLINE bool traversal16_descend(lrb_ctx *c, const traversal16 *t, const slab16 *s, slab16_path path, traversal16_node *node,
+                                    lrb_ptr *top)
+{
+    lrb_v16f entry[2] = {s->zero, s->zero};
+    lrb_k16 met[2], nearer = lrb_mask(0);
+    lrb_ptr pair = lrb_lea(c, t->nodes, node->link, 1, 0);
+    traversal16_count(t, node->m);
+    if (!t->packets || !s->own_origins) /* else every packet has its own */
+        traversal16_boxes(c, t, s, pair);
+    if (t->packets)
+        nearer = packets256_test(c, s, path, t->scratch, t->nearest, pair, node->m, met);
+    else
+        for (int i = 0; i < 2; i++)
+            met[i] = slab16_test(c, s, path, t->scratch, 32 * i, node->m, &entry[i]);
     lrb_ptr second = lrb_lea(c, pair, lrb_imm(0), 1, 32);
-    if (lrb_jz(c, lrb_kortest(c, m0, m0))) {
-        *node = traversal16_read(c, second, m1);
-        return !lrb_jz(c, lrb_kortest(c, m1, m1));
+    if (lrb_jz(c, lrb_kortest(c, met[0], met[0]))) {
+        *node = traversal16_read(c, second, met[1]);
+        return !lrb_jz(c, lrb_kortest(c, met[1], met[1]));
     }
-    if (lrb_jz(c, lrb_kortest(c, m1, m1))) {
-        *node = traversal16_read(c, pair, m0);
+    if (lrb_jz(c, lrb_kortest(c, met[1], met[1]))) {
+        *node = traversal16_read(c, pair, met[0]);
         return true;
     }
-    lrb_k16 nearer = lrb_mask_cmplt_ps(c, lrb_kand(c, m0, m1), entry0, entry1);
+    if (!t->packets)
+        nearer = lrb_mask_cmplt_ps(c, lrb_kand(c, met[0], met[1]), entry[0], entry[1]);
     if (lrb_jnz(c, lrb_kortest(c, nearer, nearer))) {
-        *top = traversal16_push(c, *top, lrb_add(c, node->link, lrb_imm(32)), m1);
-        *node = traversal16_read(c, pair, m0);
+        *top = traversal16_push(c, *top, lrb_add(c, node->link, lrb_imm(32)), met[1]);
+        *node = traversal16_read(c, pair, met[0]);
     } else {
-        *top = traversal16_push(c, *top, node->link, m0);
-        *node = traversal16_read(c, second, m1);
+        *top = traversal16_push(c, *top, node->link, met[0]);
+        *node = traversal16_read(c, second, met[1]);
     }
     return true;
 }

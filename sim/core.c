@@ -34,10 +34,11 @@ static __attribute__((noinline)) void need_late(const sim_core *s, const core_th
 {
     const lrb_event *e = h->op->event;
     const sim_op_price *p = core_price_of(s, h);
+    const uint32_t next = core_number(h);
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++) {
-        const uint32_t distance = e->src[i], number = h->next - distance;
+        const uint32_t distance = e->src[i], number = next - distance;
         const core_late_result *late = &h->late[number & (s->late_window - 1)];
-        if (distance > 0 && distance <= h->next - h->tile_first && late->number == number && late->arrival > 0)
+        if (distance > 0 && distance <= next - h->tile_first && late->number == number && late->arrival > 0)
             sim_need(sim_blame(late->arrival + sim_time_of(late->price->latency.ready[p->consumer[i]]), late->bucket), at);
     }
 }
@@ -53,17 +54,20 @@ static inline sim_blamed later(sim_blamed a, sim_blamed b) { return a > b ? a : 
 
 /* When the thread's next op can issue, as far as its operands, its class and what blocks the thread are concerned. Which thread
  * issues next varies so much that the host cannot foresee what its op waits for: so sources are compared without branches. */
-static inline sim_blamed earliest(const sim_core *s, const core_thread *h)
+static inline sim_blamed earliest(const sim_core *s, const core_thread *h, sim_blamed start)
 {
     const core_op *op = h->op;
+    const sim_blamed *issued = h->issued;
     sim_blamed ready[SIM_MAX_SOURCES];
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)
-        ready[i] = keep_scalar(h->issued[op->source[i]]) + s->latency[op->latencies >> 8 * i & 0xff];
-    sim_blamed at = later(later(later(ready[0], ready[1]), later(ready[2], ready[3])), h->start);
-    if (h->late_until > sim_time_of(h->now))
-        need_late(s, h, &at);
-    if (op->flags & SIM_PRICE_READS && h->stores_until > h->now)
-        sim_need_stored(h->stores, core_price_of(s, h), op->event, &at);
+        ready[i] = keep_scalar(issued[op->source[i]]) + s->latency[op->latencies >> 8 * i & 0xff];
+    sim_blamed at = later(later(later(ready[0], ready[1]), later(ready[2], ready[3])), start);
+    if (h->unsettled_until > h->now) {
+        if (h->late_until > h->now)
+            need_late(s, h, &at);
+        if (op->flags & SIM_PRICE_READS)
+            sim_need_stored(h->stores, core_price_of(s, h), op->event, &at);
+    }
     if (op->flags & SIM_PRICE_LASTING)
         sim_need(s->class_free[core_price_of(s, h)->class_id], &at);
     return at;
@@ -72,7 +76,7 @@ static inline sim_blamed earliest(const sim_core *s, const core_thread *h)
 enum { ACCESS = SIM_PRICE_READS | SIM_PRICE_STORE };
 
 /* How long the thread's next op is held up in cycle `now` because as many lines as may be are under way; 0: it is not. */
-static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_t now)
+static __attribute__((noinline)) sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_t now)
 {
     const lrb_event *e = h->op->event;
     if (core_moves_nothing(e))
@@ -93,8 +97,7 @@ static sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_
 /* Whether that is worth asking: some limit is reached, and the op may ask for a line. */
 static inline bool may_be_held(const sim_core *s, const core_thread *h, uint64_t now)
 {
-    return (h->misses.free_at > now || s->prefetches.free_at > now) &&
-           h->op->flags & (ACCESS | SIM_PRICE_HINT);
+    return ((h->misses.free_at > now) | (s->prefetches.free_at > now)) && h->op->flags & (ACCESS | SIM_PRICE_HINT);
 }
 
 /* The line is not simply there. */
@@ -113,32 +116,43 @@ static void remember_store(const sim_core *s, core_thread *h, const core_op *op)
     if (op->line == SIM_NO_LINE)
         return;
     sim_remember_store(h->stores, core_price_of(s, h), op->event, h->now);
-    h->stores_until = line->ready > h->stores_until ? line->ready : h->stores_until;
+    core_unsettle(h, line->ready);
 }
 
-/* The thread's next op issues in this cycle. */
-static inline void perform(sim_core *s, core_thread *h, const bool joined)
+/* Ops that do more than to give a result and to use a line. */
+enum { EFFECTS = SIM_PRICE_STORE | SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT | SIM_PRICE_TOLD };
+
+/* What such an op does when it issues. Gives what the next op issues later than. */
+static __attribute__((noinline)) sim_blamed take_effect(sim_core *s, core_thread *h, bool joined)
 {
     const core_op *op = h->op;
     const unsigned flags = op->flags;
     h->start = sim_end_of_cycle(h->now);
-    h->issued[h->next & (s->window - 1)] = h->now;
+    if (flags & SIM_PRICE_BRANCH)
+        core_take_branch(s, h, op->event);
+    if (flags & SIM_PRICE_STORE)
+        remember_store(s, h, op);
+    if (flags & SIM_PRICE_LASTING)
+        core_outlast(s, h, core_price_of(s, h));
+    if (flags & SIM_PRICE_HINT)
+        core_take_hint(s, h, op->event);
+    if (flags & SIM_PRICE_TOLD)
+        core_tell_op(s, h, op->event, joined);
+    return h->start;
+}
+
+/* The thread's next op issues in this cycle. Gives what the one behind it issues later than, if it does not join. */
+static inline sim_blamed perform(sim_core *s, core_thread *h, const bool joined)
+{
+    const core_op *op = h->op;
+    sim_blamed start = sim_end_of_cycle(h->now);
+    h->issued[op->place] = h->now;
     if (!sim_hierarchy_hits(s->memory, op->line, op->slot))
         access_memory(s, h, op);
-    if (flags & (SIM_PRICE_STORE | SIM_PRICE_LASTING | SIM_PRICE_BRANCH | SIM_PRICE_HINT | SIM_PRICE_TOLD)) {
-        if (flags & SIM_PRICE_STORE)
-            remember_store(s, h, op);
-        if (flags & SIM_PRICE_LASTING)
-            core_outlast(s, h, core_price_of(s, h));
-        if (flags & SIM_PRICE_BRANCH)
-            core_take_branch(s, h, op->event);
-        if (flags & SIM_PRICE_HINT)
-            core_take_hint(s, h, op->event);
-        if (flags & SIM_PRICE_TOLD)
-            core_tell_op(s, h, op->event, joined);
-    }
-    h->next++;
+    if (op->flags & EFFECTS)
+        start = take_effect(s, h, joined);
     h->op++;
+    return start;
 }
 
 /* May the next op, which can issue at `at`, join the one that has just issued? */
@@ -155,40 +169,35 @@ static inline bool joins(sim_core *s, const core_thread *h, sim_blamed at)
     return h->op->join == CORE_JOINS;
 }
 
-/* The cycles since the thread issued last, and those since the core did, go to their buckets, but for the gaps and the turns of
-   other threads: these are what is left of all cycles. The thread issues now. */
-static inline void charge(sim_core *s, core_thread *h, unsigned t, uint64_t cycle)
+/* Cycles in which no thread issued, before this one does, go to their buckets, but for the gaps: these are what is left of all
+ * cycles. */
+static __attribute__((noinline)) void charge_idle(sim_core *s, core_thread *h, unsigned t, uint64_t cycle)
 {
-    const uint64_t ready_at = s->turn[t] / CORE_TURN, gap_end = sim_time_of(h->now) + s->gap;
+    const uint64_t gap_end = sim_time_of(h->now) + s->gap, idle_from = gap_end > s->now + 1 ? gap_end : s->now + 1;
     const unsigned bucket = s->why[t], id = h->op->event->op & (CORE_OPS - 1);
-    s->thread_waited[bucket] += ready_at - h->waits_from;
-    if (cycle > s->now + 1) {
-        const uint64_t idle_from = gap_end > s->now + 1 ? gap_end : s->now + 1;
-        s->core_waited[bucket] += cycle - idle_from;
-        s->op_waited[id] += cycle - s->now - 1;
-        if (s->profile) {
-            sim_profile_wait(s->profile, &h->at, id, SIM_BUCKET_NONE, idle_from - s->now - 1);
-            sim_profile_wait(s->profile, &h->at, id, bucket, cycle - idle_from);
-        }
+    s->core_waited[bucket] += cycle - idle_from;
+    s->op_waited[id] += cycle - s->now - 1;
+    if (s->profile) {
+        sim_profile_wait(s->profile, &h->at, id, SIM_BUCKET_NONE, idle_from - s->now - 1);
+        sim_profile_wait(s->profile, &h->at, id, bucket, cycle - idle_from);
     }
-    h->cycles += cycle - s->now;
-    s->now = cycle;
-    h->now = sim_blame(cycle, 0);
 }
 
 /* Issue an op, and perhaps the one after it, in this cycle. Gives when the next one can issue; 0: the tile has none left. */
-static inline sim_blamed issue(sim_core *s, core_thread *h)
+static inline __attribute__((always_inline)) sim_blamed issue(sim_core *s, core_thread *h)
 {
-    perform(s, h, false);
-    if (!core_find_op(s, h))
-        return 0;
-    sim_blamed at = earliest(s, h);
-    if (joins(s, h, at)) {
+    sim_blamed start = perform(s, h, false);
+    if (core_find_op(s, h)) {
+        const sim_blamed at = earliest(s, h, start);
+        if (!joins(s, h, at))
+            return at;
         s->joins[h->op->event->op & (CORE_OPS - 1)]++;
-        perform(s, h, true);
-        at = core_find_op(s, h) ? earliest(s, h) : 0;
+        start = perform(s, h, true);
+        if (core_find_op(s, h))
+            return earliest(s, h, start);
     }
-    return at;
+    h->start = start;
+    return 0;
 }
 
 /* The first turn of the threads after thread t, the one that issued last; with the place in the order of choice added. */
@@ -210,7 +219,7 @@ static base_status run_dry(sim_core *s, core_thread *h, const sim_core_feed *fee
     end_tile(s, h, feed);
     base_status status = next_tile(s, h, feed, err);
     if (status == BASE_OK && h->end)
-        *at = earliest(s, h);
+        *at = earliest(s, h, h->start);
     return status;
 }
 
@@ -224,14 +233,13 @@ static base_status begin_run(sim_core *s, const sim_core_feed *feed, base_error 
     s->working = s->threads;
     for (unsigned t = 0; t < s->threads && status == BASE_OK; t++) {
         core_thread *h = &s->thread[t];
-        h->waits_from = s->now + 1;
         h->now = sim_blame(s->now + 1 - s->gap, 0);
         h->start = sim_end_of_cycle(h->now);
         status = next_tile(s, h, feed, err);
         h->works = h->end;
         s->runs_of_threads += h->works;
         if (status == BASE_OK && h->works)
-            core_set_turn(s, t, sim_blame(s->now + 1, SIM_BUCKET_NONE));
+            core_set_turn(s, t, sim_blame(s->now + 1, SIM_BUCKET_NONE), s->now + 1);
     }
     return status;
 }
@@ -273,16 +281,18 @@ static inline __attribute__((always_inline)) base_status take_turns(sim_core *s,
         if (may_be_held(s, h, cycle)) {
             sim_blamed held = held_by_lines(s, h, cycle);
             if (held) {
-                core_settle(s, h, cycle);
-                core_set_turn(s, t, held);
+                core_set_turn(s, t, held, cycle);
                 turn = any_turn(s, s->last);
                 continue;
             }
         }
-        charge(s, h, t, cycle);
+        if (cycle > s->now + 1)
+            charge_idle(s, h, t, cycle);
+        h->cycles += cycle - s->now;
+        s->now = cycle;
+        h->now = sim_blame(cycle, 0);
         s->last = t;
         sim_blamed at = issue(s, h);
-        h->waits_from = cycle + s->gap;
         if (!at) {
             status = run_dry(s, h, feed, &at, err);
             if (!h->end) {
@@ -290,14 +300,10 @@ static inline __attribute__((always_inline)) base_status take_turns(sim_core *s,
                 continue;
             }
         }
-        const sim_blamed gap_end = sim_blame(cycle + s->gap, SIM_BUCKET_NONE);
-        at = at > gap_end ? at : gap_end;
-        core_set_turn(s, t, at);
-        turn = first_turn(s, threads, t, (cycle + 1) * CORE_TURN);
-        if (turn > (cycle + s->gap) * CORE_TURN) {
-            const uint64_t own = sim_without_bucket(at) + threads;
-            turn = own < turn ? own : turn;
-        }
+        at = later(at, sim_blame(cycle + s->gap, SIM_BUCKET_NONE));
+        core_set_turn(s, t, at, cycle + s->gap);
+        const uint64_t own = sim_without_bucket(at) + threads, others = first_turn(s, threads, t, (cycle + 1) * CORE_TURN);
+        turn = own < others ? own : others;
     }
     return status;
 }

@@ -67,7 +67,7 @@ void sim_core_destroy(sim_core **core);
 /** Charge the core's cycles to a profile, not NULL, as well; it must outlive the core. */
 void sim_core_set_profile(sim_core *core, sim_profile *profile);
 
-/** Tell `observer`, not NULL, of all events from now on. Cycles are those of the run, the first is 1. */
+/** Tell `observer`, not NULL, of all events from now on. Cycles are counted through all runs, the first is 1. */
 void sim_core_observe(sim_core *core, sim_observer *observer, void *user);
 
 /**

@@ -57,8 +57,9 @@ static bool create_parts(sim_core *s)
     s->price = sim_op_prices(machine);
     s->turn = calloc(2 * s->threads, sizeof *s->turn);
     s->why = calloc(s->threads, sizeof *s->why);
+    s->forms = calloc((size_t)SIM_MAX_PHASES * CORE_FORMS, sizeof *s->forms);
     s->thread = calloc(s->threads, sizeof *s->thread);
-    if (!s->price || !s->turn || !s->why || !s->thread || !slots_create(&s->prefetches, machine->memory.prefetches_per_core))
+    if (!s->price || !s->turn || !s->why || !s->forms || !s->thread || !slots_create(&s->prefetches, machine->memory.prefetches_per_core))
         return false;
     fill_latencies(s);
     for (unsigned t = 0; t < s->threads; t++)
@@ -98,6 +99,7 @@ void sim_core_destroy(sim_core **core)
         free(s->price);
         free(s->turn);
         free(s->why);
+        free(s->forms);
         free(s->thread);
         free(s->prefetches.until);
         sim_hierarchy_destroy(&s->memory);

@@ -3,11 +3,13 @@
 /* The data of an op that has issued comes later than from the first level. */
 void core_delay_result(sim_core *s, core_thread *h, const sim_op_price *p, sim_fetch fetch)
 {
-    h->late[h->next & (s->late_window - 1)] =
-        (core_late_result){.number = h->next, .bucket = fetch.from == SIM_LEVEL_2 ? SIM_BUCKET_L2 : SIM_BUCKET_MEMORY,
+    const uint32_t number = core_number(h);
+    h->late[number & (s->late_window - 1)] =
+        (core_late_result){.number = number, .bucket = fetch.from == SIM_LEVEL_2 ? SIM_BUCKET_L2 : SIM_BUCKET_MEMORY,
                            .arrival = fetch.arrival, .price = p};
-    if (fetch.arrival + s->longest_latency > h->late_until)
-        h->late_until = fetch.arrival + s->longest_latency;
+    const sim_blamed until = sim_blame(fetch.arrival + s->longest_latency, 0);
+    h->late_until = until > h->late_until ? until : h->late_until;
+    core_unsettle(h, until);
 }
 
 /* The thread issues nothing before then, a later cycle, so nothing joins the op. */
@@ -65,17 +67,6 @@ void core_take_hint(sim_core *s, core_thread *h, const lrb_event *e)
     }
 }
 
-/* Put the cycles before `cycle` that a thread has spent into their buckets. */
-void core_settle(sim_core *s, core_thread *h, uint64_t cycle)
-{
-    const unsigned t = (unsigned)(h - s->thread);
-    const uint64_t ready_at = s->turn[t] / CORE_TURN;
-    if (cycle <= h->waits_from)
-        return;
-    s->thread_waited[s->why[t]] += (ready_at < cycle ? ready_at : cycle) - h->waits_from;
-    h->waits_from = cycle;
-}
-
 /* A class is busy, for the threads whose next op is of it too. */
 static void keep_busy(sim_core *s, const core_thread *h, const sim_op_price *p)
 {
@@ -83,11 +74,12 @@ static void keep_busy(sim_core *s, const core_thread *h, const sim_op_price *p)
     s->class_free[p->class_id] = until;
     for (unsigned t = 0; t < s->threads; t++) {
         core_thread *other = &s->thread[t];
-        if (other == h || s->turn[t] == CORE_NEVER || core_price_of(s, other)->class_id != p->class_id ||
-            sim_blame(s->turn[t] / CORE_TURN, s->why[t]) >= until)
+        const sim_blamed ready = s->turn[t] + s->why[t];
+        if (other == h || s->turn[t] == CORE_NEVER || core_price_of(s, other)->class_id != p->class_id || ready >= until)
             continue;
-        core_settle(s, other, s->now + 1);
-        core_set_turn(s, t, until);
+        const uint64_t gap_end = sim_time_of(other->now) + s->gap, from = gap_end > s->now + 1 ? gap_end : s->now + 1;
+        s->thread_waited[s->why[t]] -= sim_time_of(ready) > from ? sim_time_of(ready) - from : 0; /* it waits for the class instead */
+        core_set_turn(s, t, until, from);
     }
 }
 
@@ -129,12 +121,13 @@ void core_tell_op(sim_core *s, core_thread *h, const lrb_event *e, bool joined)
 
 void core_tell(sim_core *s, const core_thread *h, const lrb_event *e)
 {
-    const uint64_t cycle = s->now - s->began;
+    const uint64_t cycle = s->now - s->gap;
     sim_issued issued = {.event = e, .cycle = cycle, .ready = cycle, .thread = (unsigned)(h - s->thread)};
     if (!(s->price[e->op].flags & SIM_PRICE_MARKER)) {
-        const core_late_result *late = &h->late[h->next & (s->late_window - 1)];
-        const bool is_late = late->number == h->next && late->arrival > s->now;
-        issued.ready = (is_late ? late->arrival : s->now) - s->began + sim_time_of(s->price[e->op].latency.ready[SIM_CONSUMER_PLAIN]);
+        const uint32_t number = core_number(h);
+        const core_late_result *late = &h->late[number & (s->late_window - 1)];
+        const bool is_late = late->number == number && late->arrival > s->now;
+        issued.ready = (is_late ? late->arrival : s->now) - s->gap + sim_time_of(s->price[e->op].latency.ready[SIM_CONSUMER_PLAIN]);
         issued.in_v = s->told == s->now; /* two ops of a cycle are of one thread */
         s->told = s->now;
     }

@@ -15,7 +15,7 @@
 enum { CORE_TURN = 256 };
 #define CORE_NEVER (UINT64_MAX - (CORE_TURN - 1))
 
-enum { CORE_OPS = 512 };
+enum { CORE_OPS = 512, CORE_FORMS = UINT16_MAX + 1 };
 _Static_assert((int)LRB_OP_COUNT <= CORE_OPS, "the counters have a place for every op");
 
 /* The result of an op that waited for its line: as if the op had issued when that arrived. Kept longer than others. */
@@ -35,6 +35,7 @@ typedef struct core_op {
     uint32_t latencies;                /* and from there to when they are ready: a byte each, a place in the core's `latency` */
     uint32_t slot;                     /* where its place may be known (sim/hierarchy.h) */
     uint32_t pause;                    /* markers before the op; CORE_END: there is no op here */
+    uint16_t place;                    /* of the op itself in `issued` */
     uint8_t flags;                     /* of the price */
     uint8_t join;                      /* core_join: the op before it */
 } core_op;
@@ -51,20 +52,19 @@ _Static_assert((CORE_READY + 1) * SIM_CONSUMERS <= 256, "latencies are numbered 
 typedef struct core_thread {
     const core_op *op;  /* that issues next */
     sim_blamed now;     /* of the last issue, bucket 0 */
-    sim_blamed start;   /* the next op issues later than this, unless it joins */
-    uint64_t waits_from; /* cycles before this are in a bucket, or in the gap */
+    sim_blamed unsettled_until; /* no late result and no store is ready later */
+    sim_blamed late_until;  /* no late result is */
     sim_blamed *issued;  /* when the youngest ops did, bucket 0, by number within the window; a last one is always 0 */
+    uint64_t cycles;    /* core cycles so far that belong to the thread's ops */
+    sim_blamed start;   /* the next op issues later than this, unless it joins; kept where the op has effects or ends its tile */
     uint8_t *producer;   /* the same for the decoded ops: class, times SIM_CONSUMERS; CORE_READY: none, or long ago */
-    uint32_t next;      /* number of the next op */
+    uint32_t first, decoded_ops; /* number of the block's first op, and of the first one behind it */
     uint32_t tile_first; /* number of the tile's first op */
     uint32_t scratch;   /* displacement of the thread's scratch memory */
-    uint64_t late_until; /* no late result is ready later */
-    uint64_t stores_until; /* no store is ready later */
     core_late_result *late;  /* by number of the op */
     sim_slots misses;
     sim_store_line stores[SIM_STORE_LINES];
 
-    uint64_t cycles;    /* core cycles so far that belong to the thread's ops */
     uint64_t phase_start, region_start; /* of these */
     uint32_t phase, region;
     uint64_t regions[SIM_MAX_REGIONS + 1]; /* of the tile */
@@ -99,7 +99,9 @@ struct sim_core {
     sim_predictor *predictor;
     sim_slots prefetches; /* count 0: there may be none */
 
-    uint64_t ops[CORE_OPS], op_waited[CORE_OPS];
+    uint64_t *forms;         /* events, by phase and op field; SIM_MAX_PHASES x CORE_FORMS */
+    uint64_t idle_accesses;  /* loads and stores under a mask of no lanes */
+    uint64_t op_waited[CORE_OPS];
     uint64_t joins[CORE_OPS]; /* ops that joined another's cycle */
     uint64_t core_waited[SIM_BUCKETS], thread_waited[SIM_BUCKETS];
     uint64_t began; /* the run */
@@ -111,12 +113,17 @@ struct sim_core {
     sim_core_stats stats;
 };
 
-/** Set when a thread's next op can issue, and the bucket to blame. */
-static inline void core_set_turn(sim_core *s, unsigned t, sim_blamed ready)
+/** Set when a thread's next op can issue; the cycles from `from` until then belong to the bucket to blame. */
+static inline void core_set_turn(sim_core *s, unsigned t, sim_blamed ready, uint64_t from)
 {
+    const unsigned bucket = ready & 0xff;
     s->turn[t] = s->turn[t + s->threads] = sim_without_bucket(ready);
-    s->why[t] = (uint8_t)(ready & 0xff);
+    s->why[t] = (uint8_t)bucket;
+    s->thread_waited[bucket] += sim_time_of(ready) - from;
 }
+
+/** Number of the thread's next op. */
+static inline uint32_t core_number(const core_thread *h) { return h->first + (uint32_t)(h->op - h->block); }
 
 /** Price of the thread's next op. */
 static inline const sim_op_price *core_price_of(const sim_core *s, const core_thread *h) { return &s->price[h->op->event->op]; }
@@ -132,6 +139,12 @@ static inline uint64_t core_line_of(const sim_core *s, const core_thread *h, con
 {
     uint64_t address = e->aux;
     return (address + (address >= LRB_SCRATCH_ADDRESS ? h->scratch : 0)) >> s->line_bits;
+}
+
+/** A late result or a store is ready then. */
+static inline void core_unsettle(core_thread *h, sim_blamed until)
+{
+    h->unsettled_until = until > h->unsettled_until ? until : h->unsettled_until;
 }
 
 /** A tile has none of the ops of the one before: make its first block ready. False: it has no op at all. */
@@ -166,8 +179,5 @@ void core_tell_op(sim_core *s, core_thread *h, const lrb_event *e, bool joined);
 
 /** Tell the observer of an event. */
 void core_tell(sim_core *s, const core_thread *h, const lrb_event *e);
-
-/** Put the cycles before `cycle` that a thread has spent into their buckets. */
-void core_settle(sim_core *s, core_thread *h, uint64_t cycle);
 
 #endif

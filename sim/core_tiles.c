@@ -87,72 +87,62 @@ static inline core_join may_join(const sim_core *s, const core_thread *h, const 
     return join ? CORE_JOINS : CORE_APART;
 }
 
-/* Sums over the ops of a phase. */
-typedef struct block_counts {
-    uint64_t vector_ops, idle_lanes, memory_operands, accesses;
-} block_counts;
-
-static void add_counts(sim_core *s, const core_thread *h, block_counts *n)
+/* Lanes that are off, and accesses of none. */
+static void count_mask(sim_core *s, const core_thread *h, const lrb_event *e, const sim_op_price *p)
 {
-    s->stats.phase_vector_ops[h->decoded_phase] += n->vector_ops;
-    s->stats.phase_idle_lanes[h->decoded_phase] += n->idle_lanes;
-    s->stats.memory_operands += n->memory_operands;
-    s->memory->counts.l1_accesses += n->accesses;
-    *n = (block_counts){0};
+    s->stats.phase_idle_lanes[h->decoded_phase] += (unsigned)__builtin_popcount(p->lanes & ~(unsigned)e->mask);
+    s->idle_accesses += p->flags & ACCESS && core_moves_nothing(e);
 }
 
 /* Make ready the op of this number, which stands behind `markers`. */
 static inline void decode_op(const decoder *d, core_op *op, const lrb_event *e, const sim_op_price *p, uint32_t number, uint32_t markers)
 {
-    const uint64_t address = e->aux + (e->aux >= LRB_SCRATCH_ADDRESS ? d->scratch : 0), line = address >> d->line_bits;
     const bool accesses = p->flags & ACCESS && !core_moves_nothing(e);
     op->event = e;
-    op->line = accesses ? line : SIM_NO_LINE;
-    op->slot = accesses ? sim_known_slot(line, d->known_shift) : d->known_none;
+    op->line = SIM_NO_LINE;
+    op->slot = d->known_none;
+    if (accesses) {
+        op->line = (e->aux + (e->aux >= LRB_SCRATCH_ADDRESS ? d->scratch : 0)) >> d->line_bits;
+        op->slot = sim_known_slot(op->line, d->known_shift);
+    }
     op->pause = markers;
     op->flags = p->flags;
+    op->place = (uint16_t)(number & (d->window - 1u));
     place_sources(d, op, e, p, number);
-    d->producer[number & (d->window - 1u)] = (uint8_t)(p->class_id * SIM_CONSUMERS);
-}
-
-static inline void count_op(block_counts *n, const lrb_event *e, const sim_op_price *p, const core_op *op)
-{
-    n->vector_ops += p->lanes & 1;
-    n->memory_operands += (e->op & LRB_FORM_MEMORY) != 0;
-    n->accesses += op->line != SIM_NO_LINE;
-    if (e->mask != 0xffff)
-        n->idle_lanes += (unsigned)__builtin_popcount(p->lanes & ~(unsigned)e->mask);
+    d->producer[op->place] = (uint8_t)(p->class_id * SIM_CONSUMERS);
 }
 
 /* Make the next ops of the tile ready. All before have issued. */
 static void decode(sim_core *s, core_thread *h)
 {
     const decoder d = {s->price, h->producer, (uint16_t)s->window, h->scratch, s->line_bits, s->memory->known_shift, s->memory->known_count};
-    uint32_t number = h->next, markers = 0;
+    uint32_t number = h->decoded_ops, markers = 0;
+    uint64_t *forms = s->forms + (size_t)h->decoded_phase * CORE_FORMS;
     core_op *op = h->block;
     const lrb_event *e = h->decoded, *before = h->before, *const end = h->end;
     const sim_op_price *last = before ? &d.price[before->op] : NULL;
-    block_counts counts = {0};
+    h->first = number;
     for (; e < end && op < h->block + CORE_BLOCK; e++) {
         const sim_op_price *p = &d.price[e->op];
-        s->ops[e->op & (CORE_OPS - 1)]++;
+        forms[e->op]++;
         if (p->flags & SIM_PRICE_MARKER) {
             markers++;
             if ((e->op & LRB_EVENT_ID) == LRB_OP_phase) {
-                add_counts(s, h, &counts);
                 h->decoded_phase = e->aux < SIM_MAX_PHASES ? e->aux : SIM_MAX_PHASES - 1;
+                forms = s->forms + (size_t)h->decoded_phase * CORE_FORMS;
             }
             continue;
         }
+        if (e->mask != 0xffff)
+            count_mask(s, h, e, p);
         decode_op(&d, op, e, p, number++, markers);
-        count_op(&counts, e, p, op);
         op++->join = last ? (uint8_t)may_join(s, h, before, last, e, p) : CORE_APART;
         before = e;
         last = p;
         markers = 0;
     }
-    add_counts(s, h, &counts);
     op->pause = CORE_END;
+    h->decoded_ops = number;
     h->trailing = markers;
     h->decoded = e;
     h->before = before;
@@ -177,8 +167,8 @@ bool core_begin_tile(sim_core *s, core_thread *h, const lrb_event *events, size_
     memset(h->producer, CORE_READY * SIM_CONSUMERS, s->window + 1);
     memset(h->stores, 0, sizeof h->stores);
     memset(h->regions, 0, sizeof h->regions);
-    h->tile_first = h->next;
-    h->late_until = h->stores_until = 0;
+    h->tile_first = h->decoded_ops;
+    h->late_until = h->unsettled_until = 0;
     h->before = NULL;
     h->phase = h->decoded_phase = 0;
     h->at = (sim_whereabouts){0};

@@ -24,6 +24,8 @@ static bool know_none(sim_hierarchy *h)
         h->known_shift--;
     h->known_count = 1u << (32 - h->known_shift);
     h->known = malloc((h->known_count + 1) * sizeof *h->known);
+    h->lines = h->l1->lines;
+    h->used = h->l1->used;
     for (uint32_t i = 0; h->known && i <= h->known_count; i++)
         h->known[i] = (uint32_t)places;
     return h->known;

@@ -42,6 +42,7 @@ typedef struct sim_hierarchy {
     sim_cache *l1, *l2;
     uint32_t *known; /* owned; by sim_known_slot: place of a line that was in the first level, and not on its way, when it was last used */
     uint32_t known_count;
+    uint64_t *lines, *used; /* of l1, at hand */
     unsigned known_shift;
     sim_flight to_l1, to_l2;
     uint64_t l2_free, memory_free; /* tenths of a cycle: when the level can send the next line */
@@ -88,9 +89,9 @@ static inline uint32_t sim_known_slot(uint64_t line, unsigned known_shift)
 static inline bool sim_hierarchy_hits(sim_hierarchy *h, uint64_t line, uint32_t slot)
 {
     const uint32_t place = h->known[slot];
-    if (h->l1->lines[place] != line)
+    if (h->lines[place] != line)
         return false;
-    h->l1->used[place] = ++h->l1->uses;
+    h->used[place] = ++h->l1->uses;
     return true;
 }
 

@@ -1,6 +1,5 @@
 #include "sim/registers.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,6 +50,8 @@ struct sim_registers {
     bank banks[SIM_FILES];
     uint32_t far[SOURCES]; /* of the next op: distance of a source that its event does not tell; 0: none */
     uint8_t file[LRB_OP_COUNT];
+    sim_spill *spills; /* of the tile */
+    size_t spill_count, spill_capacity;
     sim_registers_stats stats;
 };
 
@@ -68,8 +69,10 @@ base_status sim_registers_create(const unsigned registers[SIM_FILES], sim_regist
 
 void sim_registers_destroy(sim_registers **r)
 {
-    if (*r)
+    if (*r) {
         free((*r)->values);
+        free((*r)->spills);
+    }
     free(*r);
     *r = NULL;
 }
@@ -144,6 +147,21 @@ static void drop(sim_registers *r, bank *b, unsigned place)
     b->held[place] = b->held[--b->count];
 }
 
+static void note_spill(sim_registers *r, const value *op, uint32_t number, bool store)
+{
+    if (r->spill_count == r->spill_capacity) {
+        const size_t capacity = r->spill_capacity ? 2 * r->spill_capacity : 64;
+        sim_spill *spills = realloc(r->spills, capacity * sizeof *spills);
+        r->failed |= !spills;
+        if (!spills)
+            return;
+        r->spills = spills;
+        r->spill_capacity = capacity;
+    }
+    r->spills[r->spill_count++] = (sim_spill){.before = (uint32_t)(op - r->values), .value = number,
+                                              .file = (sim_register_file)r->values[number].file, .store = store};
+}
+
 /* A register becomes free: of the values that are not kept for the op, the one that is read again last goes to memory. */
 static void spill(sim_registers *r, const value *op, bool keep_sources, sim_register_file file)
 {
@@ -158,7 +176,10 @@ static void spill(sim_registers *r, const value *op, bool keep_sources, sim_regi
         }
     }
     value *v = &r->values[b->held[victim]];
-    r->stats.pressure[op->phase][file].stores += !v->in_memory;
+    if (!v->in_memory) {
+        r->stats.pressure[op->phase][file].stores++;
+        note_spill(r, op, b->held[victim], true);
+    }
     v->in_memory = true;
     drop(r, b, victim);
 }
@@ -198,6 +219,7 @@ static void read_sources(sim_registers *r, value *op)
         if (v->file < SIM_FILES && r->registers[v->file] && !v->in_register) {
             r->stats.pressure[op->phase][v->file].reloads++;
             hold(r, op, true, number);
+            note_spill(r, op, number, false);
         }
     }
     for (int k = 0; k < SOURCES; k++) {
@@ -240,18 +262,25 @@ static void step(sim_registers *r, uint32_t number)
 
 base_status sim_registers_end(sim_registers *r, base_error *err)
 {
-    bool failed = r->failed;
     memset(r->banks, 0, sizeof r->banks);
-    if (!failed) {
+    r->spill_count = 0;
+    if (!r->failed) {
         find_uses(r);
         for (size_t i = 0; i < r->count; i++)
             step(r, (uint32_t)i);
         r->stats.tiles++;
     }
+    const bool failed = r->failed;
     r->count = 0;
     r->phase = 0;
     r->failed = false;
     return failed ? base_fail(err, BASE_ERR_NOMEM, "registers", "out of memory for the ops of a tile") : BASE_OK;
+}
+
+const sim_spill *sim_registers_spills(const sim_registers *r, size_t *count)
+{
+    *count = r->spill_count;
+    return r->spills;
 }
 
 const sim_registers_stats *sim_registers_get(const sim_registers *r)

@@ -15,6 +15,7 @@
 #ifndef SIM_REGISTERS_H
 #define SIM_REGISTERS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -50,6 +51,13 @@ typedef struct sim_registers_stats {
     uint64_t tiles;
 } sim_registers_stats;
 
+/* A value goes from its register to memory, or comes back, before the op of this number issues. Values are named by their ops. */
+typedef struct sim_spill {
+    uint32_t before, value;
+    sim_register_file file;
+    bool store;
+} sim_spill;
+
 typedef struct sim_registers sim_registers;
 
 /**
@@ -67,6 +75,9 @@ void sim_registers_events(void *r, const lrb_event *events, uint32_t count);
 
 /** End the tile and add it to the stats. Errors: BASE_ERR_NOMEM. */
 base_status sim_registers_end(sim_registers *r, base_error *err);
+
+/** The spills of the tile that ended last, in their order; they hold until the next tile ends. */
+const sim_spill *sim_registers_spills(const sim_registers *r, size_t *count);
 
 /** The sums over all tiles that have ended. */
 const sim_registers_stats *sim_registers_get(const sim_registers *r);

@@ -80,6 +80,10 @@ static base_status add_results(suite *s, const measured *found, base_error *err)
     base_status status = suite_add_table(s, "", mft_prediction_summary(&m, caption), err);
     if (status == BASE_OK)
         status = add_plot(s, &m, err);
+    if (status == BASE_OK)
+        status = suite_add_table(s, "-far", mft_prediction_far(&m), err);
+    if (status == BASE_OK)
+        status = suite_add_table(s, "-left", mft_prediction_left(&m, caption), err);
     report_page_add_heading(s->page, 1, "Rows");
     if (status == BASE_OK)
         status = suite_add_table(s, "-rows", mft_prediction_rows(&m, caption), err);

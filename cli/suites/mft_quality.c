@@ -165,10 +165,11 @@ static base_status measure_way(const suite *s, const suite_scene *on, measured *
     base_status status = run_kernel(on->scene, s->options->machine, &options, &result, err);
     for (int filtered = 0; status == BASE_OK && filtered < 2; filtered++) {
         mft_quality_row *row = &m->rows[m->count];
+        const uint64_t cycles = filtered ? result.cycles : mft_cycles(&result);
         float *seen = picture_visibility(&result, filtered, err);
         *row = (mft_quality_row){.scene = on->name, .samples = samples, .interleaved = interleaved, .filtered = filtered,
-                                 .rays = (double)result.counts.n[KERNEL_rays_shadow], .cycles = (double)result.cycles,
-                                 .cycles_per_pixel = (double)result.cycles / ((double)s->width * s->height)};
+                                 .rays = (double)result.counts.n[KERNEL_rays_shadow], .cycles = (double)cycles,
+                                 .cycles_per_pixel = (double)cycles / ((double)s->width * s->height)};
         j->seen[m->count++ % MFT_QUALITY_WAYS] = seen;
         status = seen ? BASE_OK : BASE_ERR_NOMEM;
     }
@@ -213,7 +214,7 @@ static base_status add_plots(suite *s, const measured *m, base_error *err)
         char suffix[40];
         mft_quality_points_of(m->rows + i * MFT_QUALITY_WAYS, &points);
         snprintf(suffix, sizeof suffix, "-%zu", i + 1);
-        const report_plot plot = {points.title, {"cycles per pixel, without the filter", true},
+        const report_plot plot = {points.title, {"cycles per pixel", true},
                                   {"RMSE of the visibility inside penumbrae", true}, points.series, 4};
         status = suite_add_plot(s, suffix, &plot, "The numbers are samples. The lower left is where one wants to be.", err);
     }

@@ -14,7 +14,10 @@ const char *mft_kernel(mft_algorithm algorithm);
 /** The built-in scenes that stand in for the paper's, for suite_info.scenes. */
 extern const char *const mft_suite_scenes[];
 
-/** Options of such a run: the core model, back faces culled, as the paper did (MFT 5). */
+/** Options of a kernel's run: the core model, back faces culled, as the paper did (MFT 5). */
+run_options mft_kernel_options(const suite *s, const char *kernel);
+
+/** The same of an algorithm's kernel. */
 run_options mft_run_options(const suite *s, mft_algorithm algorithm);
 
 /**
@@ -23,6 +26,9 @@ run_options mft_run_options(const suite *s, mft_algorithm algorithm);
  * @param result  destroy with run_result_destroy, also after a failure
  */
 base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err);
+
+/** Cycles of a run without those of the filter, which the paper reports apart. */
+uint64_t mft_cycles(const run_result *result);
 
 /** What a run has found, as a row of the table; `scene_name` must live as long as the row. */
 mft_row mft_row_of(const run_result *result, const char *scene_name, mft_algorithm algorithm);

@@ -81,6 +81,8 @@ static base_status add_results(suite *s, const measured *m, base_error *err)
     report_page_add_heading(s->page, 1, "Tables");
     base_status status = suite_add_table(s, "", mft_table1_counts(m->rows, m->count, caption), err);
     if (status == BASE_OK)
+        status = suite_add_table(s, "-phases", mft_table1_phases(m->rows, m->count, caption), err);
+    if (status == BASE_OK)
         status = suite_add_table(s, "-reductions", mft_table1_reductions(m->rows, m->count, caption), err);
     if (status == BASE_OK)
         status = suite_add_table(s, "-differences", mft_table1_differences(m->rows, m->count), err);

@@ -37,7 +37,7 @@ static const setting settings[] = {
     {"rules of the tree", "covered_planes=0"},
     {"rules of the tree", "perfect_splits=0"},
     {"rules of the tree", "min_area=0"},
-    {"rules of the tree", "min_area=100"},
+    {"rules of the tree", "min_area=1000"},
     {"rules of the tree", "min_area=10000"},
     {"rules of the tree", "empty_percent=100 covered_planes=0 min_area=0"},
 };

@@ -36,7 +36,7 @@ static base_status try_whole_scene(suite *s, const suite_scene *on, void *user, 
     for (size_t i = 0; i < s->jobs * kernels; i++)
         c.tallies[i] = stability_tally_none();
     const stability_input input = {on->scene, on->scene->cameras, s->options->machine, all->kernels, s->width, s->height, false, s->jobs};
-    base_status status = stability_try(&input, count_scene_ray, &c, err);
+    base_status status = stability_try(&input, count_scene_ray, NULL, &c, err);
     report_table_begin_group(all->table, on->name);
     for (size_t k = 0; status == BASE_OK && k < kernels; k++) {
         for (unsigned i = 1; i < s->jobs; i++)

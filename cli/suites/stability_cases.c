@@ -333,6 +333,21 @@ const stability_case *stability_case_list(size_t *count)
         {"B6", "edges through corner rays and the camera", stability_build_edges_on_corner_rays},
         {"B7", "triangles about the corner rays alone", stability_build_around_corner_rays},
         {"B8", "frusta with 1 to 15 of 16 rays hit", stability_build_partly_covered},
+        {"C1", "walls in flat cells, crossed and seen edge-on", stability_build_flat_leaves},
+        {"C2", "camera on planes, edges, corners of cells", stability_build_camera_on_planes},
+        {"C3", "tiles across two planes of the axes", stability_build_along_axes},
+        {"C4", "planes behind the camera", stability_build_planes_behind},
+        {"C5", "a component that vanishes within a tile", stability_build_vanishing_components},
+        {"C6", "cells between the corner rays of a tile", stability_build_between_corner_rays},
+        {"C7", "covered planes: overlaps, holes, T-junctions", stability_build_covered_planes},
+        {"C8", "gaps of 10%, empty halves, all in one plane", stability_build_gaps},
+        {"C9", "objects that are nearly closed, nested, crossing", stability_build_nearly_closed},
+        {"C10", "camera, or light, inside closed objects", stability_build_inside_objects},
+        {"C11", "tiles of nothing, of one triangle, of leaves in vain", stability_build_searches_that_end},
+        {"C12", "triangles in many leaves, and duplicates", stability_build_in_many_leaves},
+        {"C13", "rays beside the entry point's cell", stability_build_beside_entry_points},
+        {"C14", "light at edges, coplanar neighbours, concave pairs", stability_build_shadow_ends},
+        {"C15", "coincident triangles, planes without end", stability_build_deep_trees},
     };
     *count = sizeof cases / sizeof *cases;
     return cases;

@@ -166,7 +166,7 @@ static base_status try_point(measured_curve *c, stability_scene *scene_of_point,
     const stability_input input = {&made, &scene_of_point->camera, s->options->machine, c->kernels, s->width, s->height, false, s->jobs};
     base_status status = p.tallies && p.t_ulp && p.scene_ulp ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, "stability", "out of memory");
     if (status == BASE_OK)
-        status = stability_try(&input, take_ray, &p, err);
+        status = stability_try(&input, take_ray, NULL, &p, err);
     for (size_t k = 0; status == BASE_OK && k < kernels; k++) {
         double(*y)[MAX_POINTS] = c->y[k];
         for (unsigned i = 1; i < s->jobs; i++)

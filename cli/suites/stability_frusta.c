@@ -66,20 +66,6 @@ void stability_build_faces_through_origin(stability_scene *s)
     }
 }
 
-/* A triangle about the pixel ray, `reach` pixels large, at distance t. */
-static void triangle_about(stability_scene *s, double x, double y, double reach, double t)
-{
-    double centre[3], right[3], down[3], v[3][3];
-    stability_along(s, x, y, t, centre);
-    stability_along(s, x + 1, y, t, right);
-    stability_along(s, x, y + 1, t, down);
-    static const double corner[3][2] = {{-1, -0.8}, {1.1, -0.7}, {0.1, 1.2}};
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            v[i][k] = centre[k] + reach * (corner[i][0] * (right[k] - centre[k]) + corner[i][1] * (down[k] - centre[k]));
-    stability_add_placed(s, v);
-}
-
 void stability_build_culling(stability_scene *s)
 {
     stability_look_anywhere(s, 16, 16);
@@ -87,15 +73,15 @@ void stability_build_culling(stability_scene *s)
     for (int i = 0; i < 8; i++) {
         const double x = stability_random_below(s, 14), y = stability_random_below(s, 14);
         double v[3][3];
-        triangle_about(s, x, y, 2, -1 - base_random_unit(&s->random));             /* behind */
-        triangle_about(s, x + 0.5, y + 0.5, 0.2, 1 + base_random_unit(&s->random)); /* between rays */
-        triangle_about(s, x, y, 3, 1.5 + base_random_unit(&s->random));
+        stability_add_about(s, x, y, 2, -1 - base_random_unit(&s->random));             /* behind */
+        stability_add_about(s, x + 0.5, y + 0.5, 0.2, 1 + base_random_unit(&s->random)); /* between rays */
+        stability_add_about(s, x, y, 3, 1.5 + base_random_unit(&s->random));
         stability_along(s, x, y, 2 + base_random_unit(&s->random), v[0]); /* across the plane of the camera */
         stability_along(s, x + 1, y, -1, v[1]);
         stability_along(s, x, y + 1, -1.5, v[2]);
         stability_add_placed(s, v);
     }
-    triangle_about(s, 7, 7, 100, 4); /* around the whole group */
+    stability_add_about(s, 7, 7, 100, 4); /* around the whole group */
 }
 
 /* The pixels of a block that are corner rays, by number. */
@@ -119,7 +105,7 @@ void stability_build_edges_on_corner_rays(stability_scene *s)
             stability_along(s, x[0], y[0], 3, v[1]);
         stability_add_placed(s, v);
     }
-    triangle_about(s, 7, 7, 100, 4);
+    stability_add_about(s, 7, 7, 100, 4);
 }
 
 void stability_build_around_corner_rays(stability_scene *s)
@@ -130,7 +116,7 @@ void stability_build_around_corner_rays(stability_scene *s)
         for (unsigned corner = 0; corner < 4; corner++) {
             double x, y;
             corner_pixel(block, corner, &x, &y);
-            triangle_about(s, x, y, ldexp(1, -1 - (int)stability_random_below(s, 18)), 1 + base_random_unit(&s->random));
+            stability_add_about(s, x, y, ldexp(1, -1 - (int)stability_random_below(s, 18)), 1 + base_random_unit(&s->random));
         }
 }
 
@@ -141,8 +127,8 @@ void stability_build_partly_covered(stability_scene *s)
     for (unsigned block = 0; block < 16; block++) {
         const unsigned rays = 1 + stability_random_below(s, 15);
         for (unsigned i = 0; i < rays; i++)
-            triangle_about(s, 4 * (block & 3) + (i & 3), 4 * (block >> 2) + (i >> 2), 0.4, 1 + base_random_unit(&s->random));
+            stability_add_about(s, 4 * (block & 3) + (i & 3), 4 * (block >> 2) + (i >> 2), 0.4, 1 + base_random_unit(&s->random));
     }
     for (int i = 0; i < 4; i++)
-        triangle_about(s, 7, 7, 100, 2 + 0.5 * i);
+        stability_add_about(s, 7, 7, 100, 2 + 0.5 * i);
 }

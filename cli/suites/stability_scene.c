@@ -61,6 +61,8 @@ void stability_look(stability_scene *s, const double eye[3], const double target
             s->camera.up[k] = -s->camera.up[k];
 }
 
+void stability_light(stability_scene *s, const double point[3]) { placed(s, point, s->light); }
+
 static bool make_room(stability_scene *s)
 {
     if (s->status != BASE_OK)
@@ -132,6 +134,19 @@ void stability_along(const stability_scene *s, double x, double y, double t, dou
                          down * ((double)s->directions[(y0 + 1) * s->width + x0][k] - first);
         out[k] = (double)(float)s->camera.position[k] + t * s->place.scale * d;
     }
+}
+
+void stability_add_about(stability_scene *s, double x, double y, double reach, double t)
+{
+    double centre[3], right[3], down[3], v[3][3];
+    stability_along(s, x, y, t, centre);
+    stability_along(s, x + 1, y, t, right);
+    stability_along(s, x, y + 1, t, down);
+    static const double corner[3][2] = {{-1, -0.8}, {1.1, -0.7}, {0.1, 1.2}};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            v[i][k] = centre[k] + reach * (corner[i][0] * (right[k] - centre[k]) + corner[i][1] * (down[k] - centre[k]));
+    stability_add_placed(s, v);
 }
 
 void stability_random_point(stability_scene *s, double size, double out[3])

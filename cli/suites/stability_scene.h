@@ -36,6 +36,7 @@ typedef struct stability_scene {
     unsigned variant; /* which of a case's variants: counts up over places and frames */
     unsigned width, height;
     scene_camera camera;
+    double light[3]; /* the point light, in coordinates of space */
     size_t count, room;
     scene_triangle *triangles;
     double (*ideal)[3][3]; /* the triangles before they were rounded to float */
@@ -50,6 +51,9 @@ void stability_scene_clear(stability_scene *s);
 /** A camera in the case's coordinates; its image. */
 void stability_look(stability_scene *s, const double eye[3], const double target[3], double yfov, unsigned width, unsigned height);
 
+/** The point light, in the case's coordinates. */
+void stability_light(stability_scene *s, const double point[3]);
+
 /** Add a triangle in the case's coordinates. */
 void stability_add(stability_scene *s, const double a[3], const double b[3], const double c[3]);
 
@@ -62,6 +66,9 @@ void stability_aim(stability_scene *s);
 /** The point of space at distance t, in units of the place's scale, on the ray of a pixel, which may lie between pixels or
     beyond the image; that is at least 2 x 2. */
 void stability_along(const stability_scene *s, double x, double y, double t, double out[3]);
+
+/** A triangle about the ray of a pixel at distance t, `reach` pixels large. */
+void stability_add_about(stability_scene *s, double x, double y, double reach, double t);
 
 /** A random point in [-size, size]^3, a random unit vector. */
 void stability_random_point(stability_scene *s, double size, double out[3]);

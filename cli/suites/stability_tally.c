@@ -4,14 +4,24 @@
 
 stability_tally stability_tally_none(void) { return (stability_tally){.first_bad = UINT64_MAX}; }
 
-void stability_tally_ray(stability_tally *tally, const trial_ray *ray, const trial_finding *finding, uint64_t number)
+static void add_one(stability_tally *tally, const trial_ray *ray, bool hit, const trial_finding *finding, uint64_t number)
 {
-    stability_tally one = {.tries = 1, .hits = trial_ray_nearest(ray) != TRIAL_NO_HIT, .at_edge = trial_ray_at_edge(ray), .leaks = finding->leak,
+    stability_tally one = {.tries = 1, .hits = hit, .at_edge = trial_ray_at_edge(ray), .leaks = finding->leak,
                            .t_ulp = finding->t_ulp, .plane_ulp = finding->plane_ulp, .point_ulp = finding->point_ulp, .first_bad = UINT64_MAX};
     one.verdicts[finding->verdict] = 1;
     if (finding->verdict == TRIAL_LOST || finding->verdict == TRIAL_WRONG)
         one.first_bad = number;
     stability_tally_add(tally, &one);
+}
+
+void stability_tally_ray(stability_tally *tally, const trial_ray *ray, const trial_finding *finding, uint64_t number)
+{
+    add_one(tally, ray, trial_ray_nearest(ray) != TRIAL_NO_HIT, finding, number);
+}
+
+void stability_tally_shadow(stability_tally *tally, const trial_ray *ray, trial_span span, const trial_finding *finding, uint64_t number)
+{
+    add_one(tally, ray, trial_ray_blocked(ray, span), finding, number);
 }
 
 void stability_tally_add(stability_tally *tally, const stability_tally *other)
@@ -37,6 +47,12 @@ trial_answer stability_answer(const run_result *run, unsigned x, unsigned y)
                           .v = tile->v[p.block][p.pixel]};
 }
 
+static void add_columns(report_table *t, const report_column *columns, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        report_table_add_column(t, &columns[i]);
+}
+
 void stability_add_columns(report_table *t, const report_column *first, size_t count)
 {
     static const report_column columns[] = {
@@ -52,10 +68,8 @@ void stability_add_columns(report_table *t, const report_column *first, size_t c
         {.name = "worst plane", .unit = "2^-24", .kind = REPORT_REAL, .decimals = 2},
         {.name = "worst point", .unit = "2^-24", .kind = REPORT_REAL, .decimals = 2},
     };
-    for (size_t i = 0; i < count; i++)
-        report_table_add_column(t, &first[i]);
-    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
-        report_table_add_column(t, &columns[i]);
+    add_columns(t, first, count);
+    add_columns(t, columns, sizeof columns / sizeof *columns);
 }
 
 void stability_add_tally(report_table *t, const stability_tally *tally)
@@ -67,4 +81,27 @@ void stability_add_tally(report_table *t, const stability_tally *tally)
     report_table_add_real(t, tally->t_ulp);
     report_table_add_real(t, tally->plane_ulp);
     report_table_add_real(t, tally->point_ulp);
+}
+
+void stability_add_shadow_columns(report_table *t, const report_column *first, size_t count)
+{
+    static const report_column columns[] = {
+        {.name = "tries", .unit = "rays", .kind = REPORT_INTEGER},
+        {.name = "blocked", .unit = "rays", .kind = REPORT_INTEGER},
+        {.name = "lost", .unit = "rays", .kind = REPORT_INTEGER},
+        {.name = "wrong", .unit = "rays", .kind = REPORT_INTEGER},
+        {.name = "at an edge", .unit = "rays", .kind = REPORT_INTEGER},
+        {.name = "decided otherwise", .unit = "rays", .kind = REPORT_INTEGER},
+        {.name = "leaks", .unit = "rays", .kind = REPORT_INTEGER},
+    };
+    add_columns(t, first, count);
+    add_columns(t, columns, sizeof columns / sizeof *columns);
+}
+
+void stability_add_shadow_tally(report_table *t, const stability_tally *tally)
+{
+    const uint64_t integers[] = {tally->tries, tally->hits, tally->verdicts[TRIAL_LOST], tally->verdicts[TRIAL_WRONG], tally->at_edge,
+                                 tally->verdicts[TRIAL_EDGE], tally->leaks};
+    for (size_t i = 0; i < sizeof integers / sizeof *integers; i++)
+        report_table_add_integer(t, (int64_t)integers[i]);
 }

@@ -23,6 +23,9 @@ stability_tally stability_tally_none(void);
 /** Count one ray of scene `number`. */
 void stability_tally_ray(stability_tally *tally, const trial_ray *ray, const trial_finding *finding, uint64_t number);
 
+/** The same of a shadow ray: hits are rays that a triangle blocks within the span. */
+void stability_tally_shadow(stability_tally *tally, const trial_ray *ray, trial_span span, const trial_finding *finding, uint64_t number);
+
 /** Add what another has counted; the order does not matter. */
 void stability_tally_add(stability_tally *tally, const stability_tally *other);
 
@@ -34,5 +37,9 @@ void stability_add_columns(report_table *t, const report_column *first, size_t c
 
 /** Add a tally's cells to the last row. */
 void stability_add_tally(report_table *t, const stability_tally *tally);
+
+/** The same two for shadow rays. */
+void stability_add_shadow_columns(report_table *t, const report_column *first, size_t count);
+void stability_add_shadow_tally(report_table *t, const stability_tally *tally);
 
 #endif

@@ -49,6 +49,13 @@ enum {
 
 #define KDTREE_OPEN UINT32_MAX
 
+/* Components of the mesh have numbers from 0 on; bit 0 of what stands for one tells more of it. */
+enum {
+    KDTREE_ORIENTED = 1, /* by record: along every edge as many of the component's triangles run one way as the other */
+    KDTREE_OUTWARD = 1   /* of a member: oriented, and more of its layers around the leaf face outwards than inwards: whoever
+                            looks from where none is around passes through a front first */
+};
+
 /* Components of the mesh that an empty leaf lies in; set 0 is the empty one. */
 typedef struct kdtree_set {
     uint32_t first, count; /* in `members` */
@@ -63,10 +70,10 @@ typedef struct kdtree {
     bvh_triangle *records; /* 64-byte aligned, as in the BVH; each triangle once, in the order of the first leaf that lists it */
     size_t record_count;
     uint32_t *sizes; /* by node: itself and the nodes below it, 1 for a leaf (nodes[1]: 0); the complexity measure of section 4.2 */
-    uint32_t *components; /* by record: number of its closed component; KDTREE_OPEN: it belongs to none, or none were sought */
+    uint32_t *components; /* by record: 2 * number of its closed component + KDTREE_ORIENTED; KDTREE_OPEN: in none, or none were sought */
     kdtree_set *sets;
     size_t set_count; /* at least 1 */
-    uint32_t *members; /* numbers of components, ascending within a set */
+    uint32_t *members; /* 2 * numbers of components, ascending within a set, + KDTREE_OUTWARD */
     size_t member_count;
     size_t inner_count, leaf_count;
     size_t empty_count;      /* leaves without triangles */
@@ -112,14 +119,15 @@ base_status kdtree_build(const scene *s, const kdtree_options *options, kdtree *
 
 /**
  * Mark the empty leaves that occlude for rays from these origins: those inside a closed component that contains none of
- * them. Earlier marks are removed; no origins: all that are enclosed are marked. Origins on a surface, or so close
+ * them. Earlier marks are removed; no origins: none is contained. Origins on a surface, or so close
  * that rounding decides, count as inside its component.
  *
  * @param origins  cameras and point lights
+ * @param cull     rays do not see back faces: a component counts around those leaves alone that it winds around outwards
  *
  * Errors: BASE_ERR_NOMEM; the marks are as they were then.
  */
-base_status kdtree_mark_occluders(kdtree *tree, const float (*origins)[3], size_t count, base_error *err);
+base_status kdtree_mark_occluders(kdtree *tree, const float (*origins)[3], size_t count, bool cull, base_error *err);
 
 /** Free a tree; sets the pointer to NULL. */
 void kdtree_destroy(kdtree **tree);

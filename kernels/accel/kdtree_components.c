@@ -10,10 +10,14 @@
 
 #define NONE UINT32_MAX
 
-/* An edge in the list of the lower of its two vertices. */
+/* An edge in the list of the lower of its two vertices; its triangle runs along it to the other one, or back. */
 typedef struct edge {
-    uint32_t other, triangle;
+    uint32_t other, triangle : 31, back : 1;
 } edge;
+_Static_assert(SCENE_MAX_TRIANGLES <= INT32_MAX, "31 bits hold a triangle's number");
+
+/* What keeps a component from being closed or oriented. */
+enum { ODD = 1 /* an edge used an odd number of times */, UNEVEN = 2 /* an edge used more often one way than the other */ };
 
 typedef struct mesh {
     const scene *scene;
@@ -24,7 +28,7 @@ typedef struct mesh {
     uint32_t *first;   /* by vertex: its first edge; one more at the end */
     edge *edges;
     uint32_t *parent; /* by triangle: union-find, towards lower numbers */
-    bool *odd;        /* by triangle: it has an edge that is used an odd number of times */
+    uint8_t *flaws;   /* by triangle: of its edges */
 } mesh;
 
 static const float *position(const mesh *m, size_t corner)
@@ -94,7 +98,7 @@ static void list_edges(mesh *m)
     for (size_t corner = m->corners; corner-- > 0;)
         if (m->vertex[corner] != NONE) {
             edge_vertices(m, corner, &low, &high);
-            m->edges[m->first[low]++] = (edge){high, (uint32_t)(corner / 3)};
+            m->edges[m->first[low]++] = (edge){high, (uint32_t)(corner / 3), m->vertex[corner] == high};
         }
     for (size_t vertex = m->corners; vertex > 0; vertex--) /* the places have moved on by one list */
         m->first[vertex] = m->first[vertex - 1];
@@ -126,7 +130,7 @@ static void join(uint32_t *parent, uint32_t a, uint32_t b)
         parent[a] = b;
 }
 
-/* Join the triangles of every edge, and note the edges with an odd number of them. */
+/* Join the triangles of every edge, and note the flaws of edges. */
 static void join_edges(mesh *m)
 {
     for (size_t vertex = 0; vertex < m->corners; vertex++) {
@@ -135,9 +139,12 @@ static void join_edges(mesh *m)
         if (count > 1)
             qsort(list, count, sizeof *list, compare_edges);
         for (size_t i = 0; i < count; i = end) {
-            for (end = i + 1; end < count && list[end].other == list[i].other; end++)
+            size_t back = list[i].back;
+            for (end = i + 1; end < count && list[end].other == list[i].other; end++) {
                 join(m->parent, list[i].triangle, list[end].triangle);
-            m->odd[list[i].triangle] |= (end - i) % 2 != 0;
+                back += list[end].back;
+            }
+            m->flaws[list[i].triangle] |= ((end - i) % 2 != 0 ? ODD : 0) | (2 * back != end - i ? UNEVEN : 0);
         }
     }
 }
@@ -148,14 +155,16 @@ static void number_components(mesh *m, uint32_t *component, size_t *count)
     *count = 0;
     for (size_t i = 0; i < triangles; i++) {
         uint32_t root = root_of(m->parent, (uint32_t)i);
-        m->odd[root] |= m->odd[i] || m->vertex[3 * i] == NONE;
+        m->flaws[root] |= m->flaws[i] | (m->vertex[3 * i] == NONE ? ODD : 0);
     }
     for (size_t i = 0; i < triangles; i++) { /* a component's root is its first triangle */
         uint32_t root = root_of(m->parent, (uint32_t)i);
-        if (root == i)
-            component[i] = m->odd[i] ? KDTREE_OPEN : (uint32_t)(*count)++;
-        else
+        if (root != i)
             component[i] = component[root];
+        else if (m->flaws[i] & ODD)
+            component[i] = KDTREE_OPEN;
+        else
+            component[i] = (uint32_t)(*count)++ << 1 | (m->flaws[i] & UNEVEN ? 0 : KDTREE_ORIENTED);
     }
 }
 
@@ -169,8 +178,8 @@ base_status kdtree_components_find(const scene *s, uint32_t *component, size_t *
     m.first = malloc((m.corners + 2) * sizeof *m.first);
     m.edges = malloc((m.corners + 1) * sizeof *m.edges);
     m.parent = malloc((s->triangle_count + 1) * sizeof *m.parent);
-    m.odd = calloc(s->triangle_count + 1, sizeof *m.odd);
-    bool enough = m.vertex && m.table && m.first && m.edges && m.parent && m.odd;
+    m.flaws = calloc(s->triangle_count + 1, sizeof *m.flaws);
+    bool enough = m.vertex && m.table && m.first && m.edges && m.parent && m.flaws;
     if (enough) {
         for (size_t i = 0; i < s->triangle_count; i++)
             m.parent[i] = (uint32_t)i;
@@ -184,6 +193,6 @@ base_status kdtree_components_find(const scene *s, uint32_t *component, size_t *
     free(m.first);
     free(m.edges);
     free(m.parent);
-    free(m.odd);
+    free(m.flaws);
     return enough ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, "kd-tree", "out of memory");
 }

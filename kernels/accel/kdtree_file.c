@@ -14,7 +14,7 @@
 #include "lrbni/base/output_file.h"
 
 /* Changes whenever the format does, or the tree that the same scene and options give. */
-enum { VERSION = 1 };
+enum { VERSION = 2 };
 
 /* The start of the file. Little-endian, as are the arrays behind it: nodes, lists, ids of the records' triangles, components,
    sets, members; at the end the checksum (FNV-1a) of all before it. */
@@ -182,17 +182,18 @@ static base_status check_sets(const reader *r, const kdtree *tree)
     uint32_t components = 0;
     for (size_t i = 0; i < tree->record_count; i++)
         if (tree->components[i] != KDTREE_OPEN) {
-            if (tree->components[i] >= tree->record_count)
+            const uint32_t number = tree->components[i] >> 1;
+            if (number >= tree->record_count)
                 return bad(r, "a component's number is impossible");
-            components = tree->components[i] >= components ? tree->components[i] + 1 : components;
+            components = number >= components ? number + 1 : components;
         }
     for (size_t i = 0; i < tree->set_count; i++) {
         const kdtree_set *set = &tree->sets[i];
         if (set->first != members || set->count > tree->member_count - members || (set->count == 0) != (i == 0))
             return bad(r, "a set is not where it belongs");
         for (size_t k = 0; k < set->count; k++)
-            if (tree->members[members + k] >= components ||
-                (k > 0 && tree->members[members + k] <= tree->members[members + k - 1]))
+            if (tree->members[members + k] >> 1 >= components ||
+                (k > 0 && tree->members[members + k] >> 1 <= tree->members[members + k - 1] >> 1))
                 return bad(r, "a set is out of order");
         members += set->count;
     }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum crossing { MISSED, CROSSED, UNSURE } crossing;
+typedef enum crossing { MISSED, ENTERING, LEAVING, UNSURE } crossing; /* through the front, through the back */
 
 /* A number and a bound of its rounding error. */
 typedef struct bounded {
@@ -25,8 +25,8 @@ static bounded cross(const double a[2], const double b[2])
 }
 
 /*
- * Whether the half line from `point` crosses a triangle: seen along the axis the point lies within, and the plane is ahead.
- * The three cross products are the weights of the vertices, all of one sign within.
+ * How the half line from `point` crosses a triangle: seen along the axis the point lies within, and the plane is ahead.
+ * The three cross products are the weights of the vertices, all of one sign within: that of the normal along the axis.
  */
 static crossing triangle_crossing(const float *v[3], const double point[3], int axis, int up)
 {
@@ -51,7 +51,7 @@ static crossing triangle_crossing(const float *v[3], const double point[3], int 
         return MISSED;
     int side = sign_of((bounded){ahead, error}) * (up ? 1 : -1);
     if (sum == 3 || sum == -3)
-        return side == 0 ? UNSURE : side * sum > 0 ? CROSSED : MISSED;
+        return side == 0 ? UNSURE : side * sum < 0 ? MISSED : (sum > 0) == up ? LEAVING : ENTERING;
     return UNSURE;
 }
 
@@ -61,8 +61,11 @@ void kdtree_inside_free(kdtree_inside *inside)
     memset(inside, 0, sizeof *inside);
 }
 
-/* Append a crossing: its component in the upper half, then its record; bit 0 tells that it is unsure. */
-static base_status append(kdtree_inside *out, uint32_t component, uint32_t offset, bool unsure, base_error *err)
+/* What a crossing is kept as: its component in the upper half, then its record's offset and how it crosses, in bits 0 and 1. */
+enum { HOW = 3 };
+_Static_assert(sizeof(bvh_triangle) % (HOW + 1) == 0, "offsets leave bits 0 and 1 free");
+
+static base_status append(kdtree_inside *out, uint32_t component, uint32_t offset, crossing how, base_error *err)
 {
     if (out->crossed_count == out->room) {
         size_t room = 2 * out->room + 64;
@@ -72,7 +75,7 @@ static base_status append(kdtree_inside *out, uint32_t component, uint32_t offse
         out->crossed = grown;
         out->room = room;
     }
-    out->crossed[out->crossed_count++] = (uint64_t)component << 32 | offset | unsure;
+    out->crossed[out->crossed_count++] = (uint64_t)component << 32 | offset | (uint64_t)how;
     return BASE_OK;
 }
 
@@ -89,7 +92,7 @@ static base_status cross_leaf(const kdtree *tree, const kdtree_node *leaf, const
         const float *v[3] = {t->v0, t->v1, t->v2};
         crossing c = triangle_crossing(v, point, axis, up);
         if (c != MISSED)
-            status = append(out, component, list[i], c == UNSURE, err);
+            status = append(out, component, list[i], c, err);
     }
     return status;
 }
@@ -137,14 +140,21 @@ static void count_components(kdtree_inside *out)
     for (size_t i = 0; i < out->crossed_count; i = end) {
         uint32_t component = (uint32_t)(out->crossed[i] >> 32);
         bool unsure = false, odd = false;
+        int64_t winding = 0;
         for (end = i; end < out->crossed_count && out->crossed[end] >> 32 == component; end++) {
-            unsure |= out->crossed[end] & 1;
-            odd ^= end == i || out->crossed[end] != out->crossed[end - 1];
+            if (end > i && out->crossed[end] == out->crossed[end - 1])
+                continue;
+            const uint64_t how = out->crossed[end] & HOW;
+            unsure |= how == UNSURE;
+            odd = !odd;
+            winding += how == LEAVING ? 1 : -1;
         }
+        if (!(component & KDTREE_ORIENTED))
+            winding = 0;
         if (unsure)
-            out->unsure[out->unsure_count++] = component;
-        else if (odd)
-            out->inside[out->inside_count++] = component;
+            out->unsure[out->unsure_count++] = component >> 1;
+        else if (odd || winding != 0)
+            out->inside[out->inside_count++] = component >> 1 << 1 | (winding > 0 ? KDTREE_OUTWARD : 0);
     }
 }
 

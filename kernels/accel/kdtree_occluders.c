@@ -318,14 +318,14 @@ static base_status exclude(const kdtree *tree, const float origin[3], kdtree_ins
             break;
     }
     for (size_t i = 0; i < inside->inside_count; i++)
-        excluded[inside->inside[i]] = true;
+        excluded[inside->inside[i] >> 1] = true;
     for (size_t i = 0; i < inside->unsure_count; i++)
         excluded[inside->unsure[i]] = true;
     return BASE_OK;
 }
 
-/* Set the flag of the empty leaves of sets with a component that is not excluded. */
-static void mark_leaves(kdtree *tree, const bool *excluded)
+/* Set the flag of the empty leaves of sets with a component that is not excluded and, if back faces are culled, shows fronts. */
+static void mark_leaves(kdtree *tree, const bool *excluded, bool cull)
 {
     for (size_t i = 0; i < tree->node_count; i++) {
         kdtree_node *node = &tree->nodes[i];
@@ -333,27 +333,29 @@ static void mark_leaves(kdtree *tree, const bool *excluded)
             continue;
         const kdtree_set *set = &tree->sets[node->link / 4];
         bool occludes = false;
-        for (uint32_t k = 0; k < set->count; k++)
-            occludes |= !excluded[tree->members[set->first + k]];
+        for (uint32_t k = 0; k < set->count; k++) {
+            const uint32_t member = tree->members[set->first + k];
+            occludes |= !excluded[member >> 1] && (!cull || (member & KDTREE_OUTWARD));
+        }
         node->extent = occludes ? KDTREE_OCCLUDER : 0;
     }
 }
 
-base_status kdtree_mark_occluders(kdtree *tree, const float (*origins)[3], size_t count, base_error *err)
+base_status kdtree_mark_occluders(kdtree *tree, const float (*origins)[3], size_t count, bool cull, base_error *err)
 {
     size_t components = 0;
     kdtree_inside inside = {0};
     base_status status = BASE_OK;
     for (size_t i = 0; i < tree->record_count; i++)
-        if (tree->components[i] != KDTREE_OPEN && tree->components[i] >= components)
-            components = (size_t)tree->components[i] + 1;
+        if (tree->components[i] != KDTREE_OPEN && tree->components[i] >> 1 >= components)
+            components = (size_t)(tree->components[i] >> 1) + 1;
     bool *excluded = calloc(components + 1, sizeof *excluded);
     if (!excluded)
         return out_of_memory(err);
     for (size_t i = 0; status == BASE_OK && components > 0 && i < count; i++)
         status = exclude(tree, origins[i], &inside, excluded, err);
     if (status == BASE_OK)
-        mark_leaves(tree, excluded);
+        mark_leaves(tree, excluded, cull);
     kdtree_inside_free(&inside);
     free(excluded);
     return status;

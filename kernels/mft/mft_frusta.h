@@ -12,6 +12,7 @@ typedef struct mft_group {
     lrb_v16f origin;   /* for triangle records */
     lrb_v16f delta[3]; /* of the 16 rays of a frustum */
     bool cull, blocks; /* blocks: the frusta are the tile's blocks of pixels */
+    bool packets; /* a constant: boxes are tested against the rays */
     kernel_counts *n;
     const void *user;  /* of the two functions, which may be NULL: a triangle is left in the frusta of m after culling, ... */
     void (*survivor)(lrb_ctx *c, const slab16 *s, const struct mft_group *g, lrb_ptr record, lrb_v16f edges, lrb_k16 m);

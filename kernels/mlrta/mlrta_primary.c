@@ -29,6 +29,8 @@ typedef struct mlrta_state {
     kd16 k;
     lrb_r64 width, height;
     uint64_t first_x, first_y; /* first tile of the unit, of the frame's, for the heat map */
+    uint64_t blocks; /* of the tile that is being traced ... */
+    uint32_t complexity; /* ... and of what it sees: for the host (kernel_job_complexity) */
 } mlrta_state;
 
 /* The smaller of two. */
@@ -60,6 +62,14 @@ LRB_INLINE lrb_r64 mlrta_blocks(lrb_ctx *c, const mlrta_tile *t)
     return lrb_shl(c, blocks, (unsigned)shift.value);
 }
 
+/* Tell the host of the complexity that a 16x16 tile's blocks see. */
+LRB_INLINE void mlrta_tell_complexity(const mlrta_state *m, uint64_t tile)
+{
+    for (unsigned block = 0; block < 16; block++)
+        if (m->blocks >> block & 1)
+            m->job->complexity_host[tile][block] = m->complexity;
+}
+
 /* Trace the packets of the 16x16 tile that the loop is at. */
 LRB_INLINE void mlrta_trace_tile(lrb_ctx *c, mlrta_state *m, bool nothing)
 {
@@ -68,6 +78,7 @@ LRB_INLINE void mlrta_trace_tile(lrb_ctx *c, mlrta_state *m, bool nothing)
     lrb_r64 index = lrb_add(c, lrb_imul(c, y, lrb_imm(m->job->tiles_x)), x);
     lrb_ptr tile = lrb_lea(c, lrb_segment_at(m->job->tiles, 0), lrb_shl(c, index, 6), 1, 0);
     lrb_ptr frame = lrb_lea(c, lrb_segment_at(m->job->frame, 0), lrb_shl(c, index, 12), 1, 0);
+    mlrta_tell_complexity(m, index.value);
     m->k.tile_x = (uint32_t)(x.value - m->first_x);
     m->k.tile_y = (uint32_t)(y.value - m->first_y);
     kd16_blocks(c, &m->k, tile, frame, &start, nothing, lrb_load32(c, MLRTA_LOOP(m, LOOP_BLOCKS)));
@@ -93,6 +104,8 @@ LRB_INLINE void mlrta_trace(lrb_ctx *c, mlrta_state *m, const mlrta_tile *t, con
     lrb_v16f cell = tile_turned(c, bounds, t->start.cell);
     lrb_v16f zero = lrb_castpi_ps(lrb_xor_pi(c, lrb_castps_pi(cell), lrb_castps_pi(cell)));
     lrb_store_ps(c, lrb_at(m->k.scratch, SCRATCH_BOXES), lrb_mask_sub_ps(c, cell, lrb_mask(0xf0), zero, cell));
+    m->blocks = blocks.value;
+    m->complexity = t->nothing ? 0 : m->job->kdtree->sizes[t->start.node.value / sizeof(kdtree_node)];
     lrb_r64 first_x = lrb_shr(c, p->x0, 4);
     lrb_store32(c, MLRTA_LOOP(m, LOOP_NODE), t->start.node);
     lrb_store32(c, MLRTA_LOOP(m, LOOP_BLOCKS), blocks);

@@ -10,7 +10,7 @@
 #undef LRB_SOURCE
 #define LRB_SOURCE KERNEL_SOURCE_PACKET16_SOFT
 
-extern kernel_tile_fn KERNEL_TILE_FN(packet16_primary);
+extern kernel_tile_fn KERNEL_TILE_FN(packet16_primary), KERNEL_TILE_FN(visibility_filter);
 
 typedef struct packet16_soft {
     shadow16 w;
@@ -93,6 +93,10 @@ LRB_INLINE void packet16_soft_block(lrb_ctx *c, traversal16 *t, packet16_soft *p
 
 LRB_INLINE void packet16_soft_tile(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n)
 {
+    if (tile >= kernel_job_first_pass(job)) {
+        KERNEL_TILE_FN(visibility_filter)(c, job, tile - kernel_job_first_pass(job), n);
+        return;
+    }
     KERNEL_TILE_FN(packet16_primary)(c, job, tile, n);
     packet16_soft p = {.w = shadow16_of(c, job, tile, n)};
     traversal16 t = traversal16_of(job, p.w.scratch, packet16_soft_leaf, &p, n);

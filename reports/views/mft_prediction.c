@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double far_off = 30; /* percent: rows that are farther off are listed with what makes them so */
+
 enum { BOX_READINGS = 2, READING_BYTES = 100, ROWS = MFT_SCENES * MFT_ALGORITHMS };
 
 static const char *const event_names[MFT_EVENTS] = {"set-up and shading, a pixel", "AABB test, a box", "triangle access", "intersection test"};
@@ -70,20 +72,19 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Size of the errors over the rows of packets (remainder 0), of frusta (1), or of all (2), of those that could be predicted; NaN if
-   none could. */
+/* Size of the errors over the rows of an algorithm, or of all (MFT_ALGORITHMS), of those that could be predicted; NaN if none could. */
 typedef struct error_sizes {
     double median, worst;
     prediction farthest;
 } error_sizes;
 
-static error_sizes sizes_of(const prediction *rows, size_t count, unsigned remainder)
+static error_sizes sizes_of(const prediction *rows, size_t count, mft_algorithm algorithm)
 {
     double sizes[ROWS];
     size_t n = 0;
     error_sizes e = {.median = (double)NAN, .worst = (double)NAN};
     for (size_t i = 0; i < count; i++) {
-        if ((remainder < 2 && rows[i].algorithm % 2 != remainder) || isnan(rows[i].predicted))
+        if ((algorithm != MFT_ALGORITHMS && rows[i].algorithm != algorithm) || isnan(rows[i].predicted))
             continue;
         sizes[n] = fabs(error_of(&rows[i]));
         if (!(sizes[n] <= e.worst)) {
@@ -107,7 +108,7 @@ static reading best_of(const mft_measured *m)
     double least = HUGE_VAL;
     for (size_t i = 0; i < m->machine_count * BOX_READINGS; i++) {
         prediction rows[ROWS];
-        const error_sizes e = sizes_of(rows, predict_all(m, reading_at(i), rows), 2);
+        const error_sizes e = sizes_of(rows, predict_all(m, reading_at(i), rows), MFT_ALGORITHMS);
         if (e.median < least) {
             least = e.median;
             best = reading_at(i);
@@ -118,20 +119,36 @@ static reading best_of(const mft_measured *m)
 
 static void add_text_column(report_table *t, const char *name) { report_table_add_column(t, &(report_column){.name = name}); }
 
+static void add_size_columns(report_table *t, const char *rows)
+{
+    char name[60];
+    snprintf(name, sizeof name, "%s, median", rows);
+    report_table_add_real_column(t, name, "%", 1);
+    snprintf(name, sizeof name, "%s, worst", rows);
+    report_table_add_real_column(t, name, "%", 1);
+}
+
 static void add_sizes(report_table *t, error_sizes e)
 {
     report_table_add_real(t, e.median);
     report_table_add_real(t, e.worst);
 }
 
+/* The event that most of the predicted cycles are for. */
+static mft_event main_event_of(const prediction *p)
+{
+    int main_event = 0;
+    for (int e = 1; e < MFT_EVENTS; e++)
+        main_event = p->part[e] > p->part[main_event] ? e : main_event;
+    return (mft_event)main_event;
+}
+
 /* Which event makes the farthest row what it is, and what the machines say of its cost. */
 static void say_farthest(report_table *t, const mft_measured *m, reading r, const prediction *p)
 {
     char words[900], name[READING_BYTES];
-    int main_event = 0;
-    for (int e = 1; e < MFT_EVENTS; e++)
-        main_event = p->part[e] > p->part[main_event] ? e : main_event;
-    const double cost = cost_of(m, r.machine, p->algorithm, (mft_event)main_event), events = p->part[main_event] / cost;
+    const mft_event main_event = main_event_of(p);
+    const double cost = cost_of(m, r.machine, p->algorithm, main_event), events = p->part[main_event] / cost;
     say_reading(m, r, name);
     int length = snprintf(words, sizeof words, "Least median error: %s. Farthest off under it: %s, %s, %+.1f%%. Of its predicted "
                                                "cycles %.0f%% are for '%s', at %.1f cycles; all else being right, %.1f would be. "
@@ -140,7 +157,7 @@ static void say_farthest(report_table *t, const mft_measured *m, reading r, cons
                           event_names[main_event], cost, cost + (p->published - p->predicted) / events);
     for (size_t i = 0; i < m->machine_count && length < (int)sizeof words; i++)
         length += snprintf(words + length, sizeof words - (size_t)length, "%s %.1f (%s)", i ? "," : "",
-                           cost_of(m, i, p->algorithm, (mft_event)main_event), m->machines[i]);
+                           cost_of(m, i, p->algorithm, main_event), m->machines[i]);
     report_table_add_note(t, words);
 }
 
@@ -151,24 +168,22 @@ report_table *mft_prediction_summary(const mft_measured *m, const char *caption)
     report_table_set_caption(t, caption);
     add_text_column(t, "machine");
     add_text_column(t, "an AABB test is");
-    report_table_add_real_column(t, "packets, median", "%", 1);
-    report_table_add_real_column(t, "packets, worst", "%", 1);
-    report_table_add_real_column(t, "frusta, median", "%", 1);
-    report_table_add_real_column(t, "frusta, worst", "%", 1);
-    report_table_add_real_column(t, "all, median", "%", 1);
-    report_table_add_real_column(t, "all, worst", "%", 1);
+    for (size_t a = 0; a < m->algorithms; a++)
+        add_size_columns(t, mft_algorithm_names[a]);
+    add_size_columns(t, "all");
     for (size_t i = 0; i < m->machine_count * BOX_READINGS; i++) {
         const reading r = reading_at(i);
         const size_t count = predict_all(m, r, rows);
         report_table_begin_row(t);
         report_table_add_text(t, m->machines[r.machine]);
         report_table_add_text(t, r.boxes == 1 ? "a box" : "a pair of boxes");
-        for (unsigned remainder = 0; remainder <= 2; remainder++)
-            add_sizes(t, sizes_of(rows, count, remainder));
+        for (size_t a = 0; a < m->algorithms; a++)
+            add_sizes(t, sizes_of(rows, count, (mft_algorithm)a));
+        add_sizes(t, sizes_of(rows, count, MFT_ALGORITHMS));
     }
     const reading best = best_of(m);
     const size_t count = predict_all(m, best, rows);
-    const error_sizes e = sizes_of(rows, count, 2);
+    const error_sizes e = sizes_of(rows, count, MFT_ALGORITHMS);
     bool whole = true;
     for (size_t i = 0; i < count; i++)
         whole = whole && !isnan(rows[i].predicted);
@@ -180,6 +195,79 @@ report_table *mft_prediction_summary(const mft_measured *m, const char *caption)
                              "events cost here, on other scenes and with no constant fitted to the paper. What the paper leaves "
                              "open is read both ways: whether its AABB test is one box or the pair of a node, whether one hardware "
                              "thread ran or all, and whether its simulator knew cache misses.");
+    return t;
+}
+
+static void add_far(report_table *t, const mft_measured *m, reading r, const prediction *p)
+{
+    const mft_event event = main_event_of(p);
+    const double cost = cost_of(m, r.machine, p->algorithm, event), events = p->part[event] / cost;
+    const mft_paper_row paper = mft_paper_row_of(p->scene, p->algorithm);
+    report_table_begin_row(t);
+    report_table_add_text(t, mft_scenes[p->scene].name);
+    report_table_add_text(t, mft_algorithm_names[p->algorithm]);
+    report_table_add_real(t, error_of(p));
+    report_table_add_text(t, event_names[event]);
+    report_table_add_real(t, 100 * p->part[event] / p->predicted);
+    report_table_add_real(t, cost + (p->published - p->predicted) / events);
+    for (size_t i = 0; i < m->machine_count; i++)
+        report_table_add_real(t, cost_of(m, i, p->algorithm, event));
+    report_table_add_text(t, *paper.doubt ? paper.doubt : NULL);
+}
+
+report_table *mft_prediction_far(const mft_measured *m)
+{
+    char title[READING_BYTES + 60], name[READING_BYTES];
+    prediction rows[ROWS];
+    const reading best = best_of(m);
+    const size_t count = predict_all(m, best, rows);
+    say_reading(m, best, name);
+    snprintf(title, sizeof title, "Rows off by more than %.0f%%: %s", far_off, name);
+    report_table *t = report_table_create("Rows that are far off");
+    report_table_set_caption(t, title);
+    add_text_column(t, "scene");
+    add_text_column(t, "algorithm");
+    report_table_add_real_column(t, "error", "%", 1);
+    add_text_column(t, "most cycles are for");
+    report_table_add_real_column(t, "share", "% of predicted", 1);
+    report_table_add_real_column(t, "cost that would be right", "cycles", 1);
+    for (size_t i = 0; i < m->machine_count; i++)
+        report_table_add_real_column(t, m->machines[i], "cycles", 1);
+    add_text_column(t, "doubtful readings");
+    for (size_t i = 0; i < count; i++)
+        if (fabs(error_of(&rows[i])) > far_off)
+            add_far(t, m, best, &rows[i]);
+    report_table_add_note(t, report_table_rows(t) ? "The event that most of a row's predicted cycles are for: what it would have to cost for the row to be right, "
+                                                    "all else being right, and what it costs on the machines here."
+                                                  : "None is.");
+    return t;
+}
+
+report_table *mft_prediction_left(const mft_measured *m, const char *caption)
+{
+    report_table *t = report_table_create("What the published cycles leave for an AABB test");
+    report_table_set_caption(t, caption);
+    add_text_column(t, "machine");
+    add_text_column(t, "algorithm");
+    for (size_t scene = 0; scene < MFT_SCENES; scene++)
+        report_table_add_real_column(t, mft_scenes[scene].name, "cycles", 1);
+    report_table_add_real_column(t, "a box costs here", "cycles", 1);
+    for (size_t machine = 0; machine < m->machine_count; machine++)
+        for (size_t a = 0; a < m->algorithms; a++) {
+            if (a == 0)
+                report_table_begin_group(t, NULL);
+            report_table_begin_row(t);
+            report_table_add_text(t, m->machines[machine]);
+            report_table_add_text(t, mft_algorithm_names[a]);
+            for (size_t scene = 0; scene < MFT_SCENES; scene++) {
+                const prediction p = predict(m, (reading){machine, 1}, scene, (mft_algorithm)a);
+                const double others = p.predicted - p.part[MFT_EVENT_AABB];
+                report_table_add_real(t, (p.published - others) / mft_paper_row_of(scene, p.algorithm).value[MFT_AABB]);
+            }
+            report_table_add_real(t, cost_of(m, machine, (mft_algorithm)a, MFT_EVENT_AABB));
+        }
+    report_table_add_note(t, "Published cycles less those of the other events at their costs here, over the published number of AABB tests. If "
+                             "tests had one cost, an algorithm's scenes would agree; below 0: the others alone cost more than was published.");
     return t;
 }
 

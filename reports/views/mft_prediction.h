@@ -14,7 +14,7 @@
 
 /* Kinds of events, each with the phase whose cycles are charged to it. */
 typedef enum mft_event {
-    MFT_EVENT_SETUP, /* a pixel: set-up of its packet or group, and shading */
+    MFT_EVENT_SETUP, /* a pixel: set-up of its packets or groups, and shading; not the filter, which the paper reports apart */
     MFT_EVENT_AABB,  /* a box tested: traversal */
     MFT_EVENT_TRI,   /* a triangle accessed: culling */
     MFT_EVENT_ISECT, /* an intersection test: intersection */
@@ -40,6 +40,12 @@ typedef struct mft_measured {
 
 /** By reading (machine, and what the paper's AABB test is): median and worst error. NULL if out of memory. */
 report_table *mft_prediction_summary(const mft_measured *m, const char *caption);
+
+/** Rows that the reading with the least median error is far off in, and the event behind it. NULL if out of memory. */
+report_table *mft_prediction_far(const mft_measured *m);
+
+/** By machine and algorithm: what the published cycles leave for an AABB test of each scene. NULL if out of memory. */
+report_table *mft_prediction_left(const mft_measured *m, const char *caption);
 
 /** What an event costs, over all scenes and in the least and dearest of them. NULL if out of memory. */
 report_table *mft_prediction_costs(const mft_measured *m, const char *caption);

@@ -95,8 +95,7 @@ report_table *mft_quality_errors(const mft_quality_row *rows, size_t count, cons
            "see a part of the light inside penumbrae, and all of it or nothing outside. RMSE: root of the mean square; bias: "
            "mean, above 0 is too bright; worst: the largest size. Pixels that hit nothing do not count. 256 samples are all "
            "sets, which leaves nothing to interleave.");
-    report_table_add_note(t, "Cycles are those of the whole frame with multi-frusta tracing, without the filter, which works on "
-                             "the picture that has been traced and is charged to no machine.");
+    report_table_add_note(t, "Cycles are those of the whole frame with multi-frusta tracing, of the filter too where it is used.");
     return t;
 }
 

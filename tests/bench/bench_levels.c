@@ -2,7 +2,8 @@
  *
  *   bench_levels [--size N] [--repeat N] [SCENE...]
  *
- * A SCENE is what scene_open takes (default builtin:hall-60k), the image N x N pixels (default 1024). One host thread.
+ * A SCENE is what scene_open takes (default builtin:hall-60k), the image N x N pixels (default 1024). One host thread. Kernels with soft
+ * shadows run natively alone, without their filter, beside Embree on the same primary and shadow rays.
  * The ways to run a kernel take turns, so that noise of the host meets all alike; times are the median of --repeat runs
  * (default 5). Rows of CSV on stdout; lines of '#' name the compiler and the CPU, repeat the rows as a table, and
  * compare them with the targets. Missing a target is no failure.
@@ -44,8 +45,8 @@ typedef struct bench {
     embree_packets *embree[2]; /* without and with the robust flag; NULL: no Embree */
     int repeat;
     double seconds[WAYS][MEASURE_MAX_RUNS];
-    uint64_t ops, vector_ops, events, rays; /* of one image */
-    uint64_t hits[2];                       /* Embree's */
+    uint64_t ops, vector_ops, events, rays; /* of one image; but for the rays 0 with soft shadows */
+    uint64_t hits[2], blocked[2];           /* Embree's */
 } bench;
 
 static int fail(const base_error *err)
@@ -53,6 +54,8 @@ static int fail(const base_error *err)
     fprintf(stderr, "bench_levels: error: %s: %s\n", err->what, err->why);
     return 1;
 }
+
+static bool is_soft(const bench *b) { return b->job->rows_host != NULL; }
 
 /* Trace the image once at a level of accounting. */
 static void trace_kernel(bench *b, way w)
@@ -100,7 +103,7 @@ static void trace_core(bench *b)
     const sim_core_feed feed = {.next = next_tile, .user = &f};
     sim_core *core = NULL;
     base_error err = {0};
-    const recorder_input input = {.tiles = f.count, .kernel = b->kernel, .job = b->job};
+    const recorder_input input = {.first_pass = f.count, .tiles = f.count, .kernel = b->kernel, .job = b->job};
     base_status status = recorder_create(&input, b->machine, 0, &f.recorder, &err);
     if (status == BASE_OK)
         status = sim_core_create(b->machine, &core, &err);
@@ -118,14 +121,17 @@ static void trace_core(bench *b)
 static void trace_embree(bench *b, int robust)
 {
     const uint32_t tiles = kernel_job_tiles(b->job);
-    b->hits[robust] = 0;
-    for (uint32_t tile = 0; tile < tiles; tile++)
+    b->hits[robust] = b->blocked[robust] = 0;
+    for (uint32_t tile = 0; tile < tiles; tile++) {
         b->hits[robust] += embree_packets_trace(b->embree[robust], b->job, tile);
+        if (is_soft(b))
+            b->blocked[robust] += embree_packets_shadows(b->embree[robust], b->job, tile);
+    }
 }
 
 static bool has_way(const bench *b, way w)
 {
-    return w < WAY_EMBREE || b->embree[w - WAY_EMBREE];
+    return w < WAY_EMBREE ? w == WAY_NATIVE || !is_soft(b) : b->embree[w - WAY_EMBREE] != NULL;
 }
 
 static double time_way(bench *b, way w)
@@ -176,8 +182,8 @@ static void print_rows(const bench *b)
         const double seconds = seconds_of(b, (way)w);
         printf("levels/%s/%s/%s,%u,%.6f,%.3f", b->kernel->name, way_names[w], b->scene_name, b->job->width, seconds,
                seconds / seconds_of(b, WAY_NATIVE));
-        print_rate(w < WAY_EMBREE, b->ops, seconds);
-        print_rate(w < WAY_EMBREE, b->vector_ops, seconds);
+        print_rate(w < WAY_EMBREE && b->ops, b->ops, seconds);
+        print_rate(w < WAY_EMBREE && b->ops, b->vector_ops, seconds);
         print_rate(w == WAY_RECORD || w == WAY_ISSUE || w == WAY_CORE, b->events, seconds);
         print_rate(true, b->rays, seconds);
         printf("\n");
@@ -194,17 +200,18 @@ static void print_million(bool known, uint64_t count, double seconds)
 
 static void print_table(const bench *b)
 {
-    printf("#\n# %s on %s, %ux%u: %.1f M ops, %.1f M of them 16-lane, %.1f M events; millions a second:\n", b->kernel->name,
-           b->scene_name, b->job->width, b->job->height, 1e-6 * (double)b->ops, 1e-6 * (double)b->vector_ops,
-           1e-6 * (double)b->events);
+    printf("#\n# %s on %s, %ux%u: ", b->kernel->name, b->scene_name, b->job->width, b->job->height);
+    if (b->ops)
+        printf("%.1f M ops, %.1f M of them 16-lane, %.1f M events; ", 1e-6 * (double)b->ops, 1e-6 * (double)b->vector_ops, 1e-6 * (double)b->events);
+    printf("millions a second:\n");
     printf("# %-16s %9s %9s %12s %12s %12s %12s\n", "", "seconds", "x native", "ops", "16-lane ops", "events", "rays");
     for (int w = 0; w < WAYS; w++) {
         if (!has_way(b, (way)w))
             continue;
         const double seconds = seconds_of(b, (way)w);
         printf("# %-16s %9.4f %9.2f", way_names[w], seconds, seconds / seconds_of(b, WAY_NATIVE));
-        print_million(w < WAY_EMBREE, b->ops, seconds);
-        print_million(w < WAY_EMBREE, b->vector_ops, seconds);
+        print_million(w < WAY_EMBREE && b->ops, b->ops, seconds);
+        print_million(w < WAY_EMBREE && b->ops, b->vector_ops, seconds);
         print_million(w == WAY_RECORD || w == WAY_ISSUE || w == WAY_CORE, b->events, seconds);
         print_million(true, b->rays, seconds);
         printf("\n");
@@ -213,6 +220,8 @@ static void print_table(const bench *b)
         printf("# Embree: %llu hits, robust %llu, of %llu rays; packets of 16 are %s here\n", (unsigned long long)b->hits[0],
                (unsigned long long)b->hits[1], (unsigned long long)b->rays,
                embree_packets_native16(b->embree[0]) ? "its own code" : "split");
+    if (b->embree[0] && is_soft(b))
+        printf("# Embree: %llu blocked, robust %llu\n", (unsigned long long)b->blocked[0], (unsigned long long)b->blocked[1]);
 }
 
 static void print_target(const char *what, double value, double target, bool at_most, const char *unit)
@@ -236,7 +245,9 @@ static void print_targets(const bench *b)
 static base_status create(bench *b, const sim_machine *machine, const bvh *tree, const scene_camera *camera, const scene_light *light,
                           unsigned size, base_error *err)
 {
-    base_status status = kernel_job_create(tree, camera, light, size, size, &b->kernel->defaults, &b->job, err);
+    kernel_params params = b->kernel->defaults;
+    params.filter = 0;
+    base_status status = kernel_job_create(tree, camera, light, size, size, &params, &b->job, err);
     if (status == BASE_OK)
         status = sim_issue_create(machine, &b->issue, err);
     for (int w = 0; w <= WAY_ISSUE && status == BASE_OK; w++)
@@ -278,7 +289,8 @@ static base_status bench_kernel(const kernel_info *kernel, const scene *s, const
                     b.seconds[w][run] = time_way(&b, (way)w);
         print_rows(&b);
         print_table(&b);
-        print_targets(&b);
+        if (!is_soft(&b))
+            print_targets(&b);
         fflush(stdout);
     }
     destroy(&b);
@@ -302,7 +314,7 @@ static void create_embree(const scene *s, embree_packets *embree[2])
 
 static int bench_scene(const char *spec, const sim_machine *machine, const bench_options *o)
 {
-    static const char *const kernels[] = {"packet16-primary", "mft-primary"};
+    static const char *const kernels[] = {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft"};
     scene *s = NULL;
     embree_packets *embree[2] = {NULL, NULL};
     base_error err = {0};

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/job_shadow.h"
 #include "tests/bench/measure.h"
 
 struct embree_packets {
@@ -134,4 +135,52 @@ uint32_t embree_packets_trace(embree_packets *p, const kernel_job *job, uint32_t
             hits += valid[j] && q.hit.geomID[j] != RTC_INVALID_GEOMETRY_ID;
     }
     return hits;
+}
+
+/* The rays of a pixel: one origin, and the directions of its set of samples. Returns whether any are traced. */
+static bool make_shadow_rays(struct RTCRay16 *q, const kernel_job *job, unsigned x, unsigned y)
+{
+    const job_light *light = &job->constants_host->light;
+    const job_sample_set *set = &job->samples_host[job_shadow_set(job, kernel_job_pixel(job, x, y).pixel, 0)];
+    float *const direction[3] = {q->dir_x, q->dir_y, q->dir_z};
+    float *const origin[3] = {q->org_x, q->org_y, q->org_z};
+    job_shadow_ray first;
+    if (!job_shadow_ray_of(job, x, y, 0, 0, &first))
+        return false;
+    for (int axis = 0; axis < 3; axis++) {
+        const float corner = light->corner[axis] - first.org[axis];
+        for (int j = 0; j < 16; j++) {
+            direction[axis][j] = corner + set->delta[axis][j];
+            origin[axis][j] = first.org[axis];
+        }
+    }
+    for (int j = 0; j < 16; j++) {
+        q->tnear[j] = light->nearest;
+        q->tfar[j] = light->farthest;
+        q->time[j] = 0.0f;
+        q->mask[j] = UINT32_MAX;
+        q->flags[j] = 0;
+    }
+    return true;
+}
+
+uint32_t embree_packets_shadows(embree_packets *p, const kernel_job *job, uint32_t tile)
+{
+    struct RTCIntersectContext context;
+    struct RTCRay16 q;
+    _Alignas(64) int valid[16];
+    uint32_t blocked = 0;
+    const unsigned x0 = tile % job->tiles_x * JOB_TILE_PIXELS, y0 = tile / job->tiles_x * JOB_TILE_PIXELS;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    memset(valid, 0xff, sizeof valid);
+    for (unsigned y = y0; y < y0 + JOB_TILE_PIXELS && y < job->height; y++)
+        for (unsigned x = x0; x < x0 + JOB_TILE_PIXELS && x < job->width; x++) {
+            if (!make_shadow_rays(&q, job, x, y))
+                continue;
+            rtcOccluded16(valid, p->scene, &context, &q);
+            for (int j = 0; j < 16; j++)
+                blocked += q.tfar[j] < 0;
+        }
+    return blocked;
 }

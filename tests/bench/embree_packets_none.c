@@ -17,6 +17,12 @@ uint32_t embree_packets_trace(embree_packets *p, const kernel_job *job, uint32_t
     return 0;
 }
 
+uint32_t embree_packets_shadows(embree_packets *p, const kernel_job *job, uint32_t tile)
+{
+    (void)p, (void)job, (void)tile;
+    return 0;
+}
+
 int embree_packets_native16(const embree_packets *p)
 {
     (void)p;

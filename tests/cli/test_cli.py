@@ -224,7 +224,7 @@ def soft__counts_and_parameters__those_of_shadows(folder):
 def pictures__all_kinds__written(folder):
     if not HAVE_IMAGES:
         return 'built without pictures'
-    paths = [folder + '/' + name for name in ('a.png', 'b.exr', 'c.png', 'd.jpg', 'e.png', 'f.exr')]
+    paths = [folder + '/' + name for name in ('a.png', 'b.exr', 'c.png', 'd.jpg', 'e.png', 'f.exr', 'g.exr', 'h.exr')]
     result = run('run-kernel', 'mft-primary', *SMALL, '--image', paths[0], '--aov', paths[1], '--heatmap', paths[2])
     assert result.returncode == 0, result.stderr
     result = run('run-kernel', 'mft-primary', *SMALL, '--heatmap', paths[3], '--heatmap-of', 'aabb_tests', '--model', 'native')
@@ -232,6 +232,10 @@ def pictures__all_kinds__written(folder):
     result = run('run-kernel', 'mft-soft', *SMALL, '--image', paths[4], '--aov', paths[5], '--model', 'native')
     assert result.returncode == 0, result.stderr
     assert b'visibility' in open(paths[5], 'rb').read(2000) and b'visibility' not in open(paths[1], 'rb').read(2000)
+    for kernel, path in (('kd16-primary', paths[6]), ('mlrta-primary', paths[7])):
+        result = run('run-kernel', kernel, *SMALL, '--aov', path, '--model', 'native')
+        assert result.returncode == 0, result.stderr
+    assert b'complexity' in open(paths[7], 'rb').read(2000) and b'complexity' not in open(paths[6], 'rb').read(2000)
     assert all(os.path.getsize(path) > 500 for path in paths)
     fails(['run-kernel', 'mft-primary', *SMALL, '--image', folder + '/a.nothing'], 'a.nothing')
     return None
@@ -256,6 +260,7 @@ def regress__stored_baseline__equal_and_differences_named(folder):
 def regress__project_baselines__equal(folder):
     result = run('regress')
     assert result.returncode == 0, result.stdout + result.stderr
+    assert 'mft-table1-long' not in result.stdout and 'mft-table1-long' in run('regress', '--help').stdout
 
 
 def lists__text_and_json__complete(folder):

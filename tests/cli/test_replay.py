@@ -55,10 +55,31 @@ def replay__every_machine_and_model__as_a_live_run(folder):
 def replay__several_cores__as_a_live_run(folder):
     path = folder + '/t.ltr'
     for cores in ('2', '5'):
-        live = [numbers(stats_of('mft-primary', *SMALL, '--set', 'cores=' + cores, '--jobs', j, '--trace', path)) for j in ('1', '3')]
-        assert live[0] == live[1]
-        for jobs in ('1', '2', '4'):
-            assert numbers(replayed(path, '--set', 'cores=' + cores, '--jobs', jobs)) == live[0]
+        for kernel in ('mft-primary', 'packet16-soft'):
+            live = [numbers(stats_of(kernel, *SMALL, '--set', 'cores=' + cores, '--jobs', j, '--trace', path)) for j in ('1', '3')]
+            assert live[0] == live[1]
+            for jobs in ('1', '2', '4'):
+                assert numbers(replayed(path, '--set', 'cores=' + cores, '--jobs', jobs)) == live[0]
+
+
+def replay__second_pass__as_a_live_run_and_after_the_first(folder):
+    path, machines = folder + '/t.ltr', ('larrabee', 'knc')
+    live = [numbers(stats_of('packet16-soft', *SMALL, '--machine', m, '--jobs', '3', '--trace', path)) for m in machines]
+    assert live[0]['cycles']['by_phase']['filter'] > 0
+    for jobs in ('1', '3'):
+        together = replayed(path, '--jobs', jobs, *[w for m in machines for w in ('--machine', m)])
+        assert [numbers(r) for r in together['runs']] == live
+    out = folder + '/t.csv'
+    assert run('replay', path, '--model', 'core', '--export', 'csv', '--out', out).returncode == 0
+    with open(out, encoding='ascii') as file:
+        rows = [line.split(',') for line in file]
+    at = {name: rows[0].index(name) for name in ('tile', 'cycle', 'pipe')}
+    cycles = {}
+    for row in rows[1:]:
+        if row[at['pipe']]:  # markers have none
+            cycles.setdefault(int(row[at['tile']]), []).append(int(row[at['cycle']]))
+    first = len(cycles) // 2
+    assert max(max(cycles[tile]) for tile in range(first)) < min(min(cycles[tile]) for tile in range(first, 2 * first))
 
 
 def replay__table__that_of_run_kernel(folder):

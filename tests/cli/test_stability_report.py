@@ -5,7 +5,7 @@ import sys
 
 from program import main, run
 
-TABLES = ['', '-places', '-scenes', '-distance', '-size', '-aspect']
+TABLES = ['', '-places', '-shadows', '-scenes', '-distance', '-size', '-aspect']
 
 
 def stability__whole_report__nothing_lost_and_every_file(folder):

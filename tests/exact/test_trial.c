@@ -227,6 +227,53 @@ static void find__vertices_not_finite__never_hit(void **state)
     bench_destroy(&b);
 }
 
+/* A triangle blocks between 1 and 3 only; at an edge, and where the span ends within rounding, either answer is excusable. */
+static void answer_blocked__by_what_is_within_the_span__lost_wrong_or_edge(void **state)
+{
+    const trial_span span = {1, 3}, before = {1, 1.5f}, ends_at_it = {1, 2}, starts_at_it = {2, 3}, behind = {2.5f, 3};
+    bench b = bench_create(scene_of, TRIANGLES, zero, false);
+    (void)state;
+    look(&b, 0, 0, 1);
+    assert_true(trial_ray_blocked(b.ray, span));
+    assert_int_equal(trial_ray_answer_blocked(b.ray, span, true).verdict, TRIAL_RIGHT);
+    trial_finding f = trial_ray_answer_blocked(b.ray, span, false);
+    assert_int_equal(f.verdict, TRIAL_LOST);
+    assert_true(f.leak);
+    const trial_span outside[] = {before, behind};
+    for (int i = 0; i < 2; i++) {
+        assert_false(trial_ray_blocked(b.ray, outside[i]));
+        assert_int_equal(trial_ray_answer_blocked(b.ray, outside[i], true).verdict, TRIAL_WRONG);
+        assert_int_equal(trial_ray_answer_blocked(b.ray, outside[i], false).verdict, TRIAL_RIGHT);
+    }
+    const trial_span at_end[] = {ends_at_it, starts_at_it};
+    for (int i = 0; i < 2; i++) {
+        assert_false(trial_ray_blocked(b.ray, at_end[i]));
+        assert_int_equal(trial_ray_answer_blocked(b.ray, at_end[i], true).verdict, TRIAL_EDGE);
+        assert_int_equal(trial_ray_answer_blocked(b.ray, at_end[i], false).verdict, TRIAL_RIGHT);
+    }
+    look(&b, 0, -0.5f, 1); /* in the lower edge of the first two */
+    assert_int_equal(trial_ray_answer_blocked(b.ray, span, true).verdict, TRIAL_RIGHT);
+    f = trial_ray_answer_blocked(b.ray, span, false);
+    assert_int_equal(f.verdict, TRIAL_EDGE);
+    assert_true(f.leak);
+    bench_destroy(&b);
+}
+
+/* From behind nothing blocks if only fronts count. */
+static void answer_blocked__culled__by_fronts_only(void **state)
+{
+    const trial_span span = {1, 3};
+    (void)state;
+    for (int cull = 0; cull < 2; cull++) {
+        bench b = bench_create(&scene_of[FRONT], 1, zero, cull), other = bench_create(&scene_of[COPY], 1, zero, cull);
+        look(&b, 0, 0, 1);
+        look(&other, 0, 0, 1);
+        assert_int_equal(trial_ray_blocked(b.ray, span) + trial_ray_blocked(other.ray, span), 2 - cull);
+        bench_destroy(&b);
+        bench_destroy(&other);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -239,6 +286,8 @@ int main(void)
         cmocka_unit_test(answer__origin_within_rounding_of_the_plane__edge),
         cmocka_unit_test(find__random_triangles__as_all_tried_exactly),
         cmocka_unit_test(find__vertices_not_finite__never_hit),
+        cmocka_unit_test(answer_blocked__by_what_is_within_the_span__lost_wrong_or_edge),
+        cmocka_unit_test(answer_blocked__culled__by_fronts_only),
     };
     return cmocka_run_group_tests_name("exact trial", tests, NULL, NULL);
 }

@@ -19,7 +19,7 @@ static void use(kdtree *tree)
 {
     static const float origins[][3] = {{0.1f, 0.2f, 0.3f}, {1.5f, -1.25f, 1.1f}, {3.5f, 3.0f, -3.25f}};
     size_t entries = 0, leaves = 0;
-    if (kdtree_mark_occluders(tree, origins, 3, NULL) != BASE_OK || kdtree_mark_occluders(tree, NULL, 0, NULL) != BASE_OK)
+    if (kdtree_mark_occluders(tree, origins, 3, true, NULL) != BASE_OK || kdtree_mark_occluders(tree, NULL, 0, false, NULL) != BASE_OK)
         abort();
     for (size_t i = 0; i < tree->node_count; i++)
         if (i != 1 && kdtree_is_leaf(&tree->nodes[i])) {

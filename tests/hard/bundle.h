@@ -27,7 +27,8 @@ typedef struct bundle {
 bundle bundle_create(const char *kernel, const bvh *tree, int cull);
 void bundle_destroy(bundle *b);
 
-/** The next packet: 16 rays, of which those in `mask` count; they are block 0 of the tile. For packet16-primary. */
+/** The next packet: 16 rays, of which those in `mask` count; they are block 0 of the tile. For packet16-primary;
+    for packet256-primary if all 16 are the same, since it takes the signs of rays from the corners of their block. */
 void bundle_rays(bundle *b, const float origin[3], float d[16][3], unsigned mask);
 
 /** The next group: pixel (x, y) of the tile has direction first + x*right + y*down; blocks in `mask` count. */

@@ -2,22 +2,22 @@
 
 #include "tests/kernels/twin.h"
 
-static const char *kernels[2] = {"packet16-primary", "mft-primary"};
+enum { KERNELS = 3 };
+
+static const char *kernels[KERNELS] = {"packet16-primary", "mft-primary", "packet256-primary"};
 
 void pictures_check(const scene *s, const scene_camera *camera, unsigned size, const char *what)
 {
     bvh *deep = trace_tree(s, 2), *shallow = trace_tree(s, 8);
     for (unsigned cull = 0; cull < 2; cull++) {
-        trace_request request = {.kernel = kernels[0], .tree = deep, .camera = camera, .width = size, .height = size, .cull = cull,
-                                 .jobs = 1};
-        trace_picture packets = trace_run(&request), all = twin_brute_force(deep, camera, size, size, (int)cull);
-        request.kernel = kernels[1];
-        request.tree = shallow;
-        trace_picture frusta = trace_run(&request);
-        trace_assert_equal(&packets, &all, what);
-        trace_assert_equal(&frusta, &all, what);
-        trace_free(&packets);
-        trace_free(&frusta);
+        trace_picture all = twin_brute_force(deep, camera, size, size, (int)cull);
+        for (int kernel = 0; kernel < KERNELS; kernel++) {
+            trace_request request = {.kernel = kernels[kernel], .tree = kernel ? shallow : deep, .camera = camera, .width = size,
+                                     .height = size, .cull = cull, .jobs = 1};
+            trace_picture p = trace_run(&request);
+            trace_assert_equal(&p, &all, what);
+            trace_free(&p);
+        }
         trace_free(&all);
     }
     bvh_destroy(&deep);

@@ -4,7 +4,7 @@
 
 #include "tests/hard/shapes.h"
 
-/** Fail the running test, with `what`, unless both kernels give, with and without culling, exactly the size x size picture
+/** Fail the running test, with `what`, unless all kernels give, with and without culling, exactly the size x size picture
     that trying all triangles with the same float operations gives. */
 void pictures_check(const scene *s, const scene_camera *camera, unsigned size, const char *what);
 

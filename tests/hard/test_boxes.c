@@ -16,12 +16,12 @@
 #include "tests/hard/shapes.h"
 #include "exact/predicates.h"
 
-static const char *kernels[2] = {"packet16-primary", "mft-primary"};
+static const char *kernels[3] = {"packet16-primary", "mft-primary", "packet256-primary"};
 
 /* A tree whose two leaves share one box, which changes from case to case; the triangles are far from all rays. */
 typedef struct box_test {
     bvh *tree;
-    bundle packet, frusta;
+    bundle packet, frusta, group;
 } box_test;
 
 static box_test box_test_create(void)
@@ -32,6 +32,7 @@ static box_test box_test_create(void)
     box_test t = {.tree = bundle_pair(far_away, boxes)};
     t.packet = bundle_create(kernels[0], t.tree, 0);
     t.frusta = bundle_create(kernels[1], t.tree, 0);
+    t.group = bundle_create(kernels[2], t.tree, 0);
     return t;
 }
 
@@ -39,6 +40,7 @@ static void box_test_destroy(box_test *t)
 {
     bundle_destroy(&t->packet);
     bundle_destroy(&t->frusta);
+    bundle_destroy(&t->group);
     bvh_destroy(&t->tree);
 }
 
@@ -57,7 +59,7 @@ static int rays_meet(box_test *t, const float org[3], float d[16][3], unsigned m
     return bundle_trace(&t->packet).n[KERNEL_tri_accesses] > 0;
 }
 
-/* The same for a single ray, in every lane by turns. */
+/* The same for a single ray, in every lane by turns, and in a group of one packet. */
 static int ray_meets(box_test *t, const float org[3], const float d[3])
 {
     static unsigned lane;
@@ -65,7 +67,10 @@ static int ray_meets(box_test *t, const float org[3], const float d[3])
     for (int j = 0; j < 16; j++)
         memcpy(all[j], d, sizeof all[j]);
     lane = (lane + 1) % 16;
-    return rays_meet(t, org, all, 1u << lane);
+    const int met = rays_meet(t, org, all, 1u << lane);
+    bundle_rays(&t->group, org, all, 1u << lane);
+    assert_int_equal(bundle_trace(&t->group).n[KERNEL_tri_accesses] > 0, met);
+    return met;
 }
 
 /* The box, larger on all sides by `share` of the distance of its farthest corner from the origin. */

@@ -19,7 +19,7 @@
 #include "tests/kernels/trace.h"
 #include "exact/predicates.h"
 
-static const char *kernels[2] = {"packet16-primary", "mft-primary"};
+static const char *kernels[3] = {"packet16-primary", "mft-primary", "packet256-primary"};
 
 typedef struct grid {
     float org[3], first[3], right[3], down[3];
@@ -351,16 +351,16 @@ static void b8__some_of_16_rays_hit__far_leaf_still_visited(void **state)
 
 /* ---- O6: what must not change ---- */
 
-/* One group of rays on one soup; results of both kernels. */
+/* One group of rays on one soup; results of all kernels. */
 typedef struct metamorph {
     scene s;
     grid g;
-    job_frame_tile frame[2];
+    job_frame_tile frame[3];
 } metamorph;
 
 static void trace_metamorph(metamorph *m)
 {
-    for (int kernel = 0; kernel < 2; kernel++) {
+    for (int kernel = 0; kernel < 3; kernel++) {
         bvh *tree = trace_tree(&m->s, kernel ? 8 : 2);
         bundle b = bundle_create(kernels[kernel], tree, 0);
         set_grid(&b, &m->g, 0xffff);
@@ -370,8 +370,10 @@ static void trace_metamorph(metamorph *m)
         bundle_destroy(&b);
         bvh_destroy(&tree);
     }
-    assert_memory_equal(m->frame[0].t, m->frame[1].t, sizeof m->frame[0].t);
-    assert_memory_equal(m->frame[0].id, m->frame[1].id, sizeof m->frame[0].id);
+    for (int kernel = 1; kernel < 3; kernel++) {
+        assert_memory_equal(m->frame[0].t, m->frame[kernel].t, sizeof m->frame[0].t);
+        assert_memory_equal(m->frame[0].id, m->frame[kernel].id, sizeof m->frame[0].id);
+    }
 }
 
 static metamorph metamorph_create(base_random *r, int i)
@@ -539,7 +541,7 @@ static void o6__other_trees__same_bits(void **state)
         trace_picture first = {0};
         for (unsigned leaf = 1; leaf <= 64; leaf *= 4)
             for (unsigned bins = 2; bins <= 32; bins += 10)
-                for (int kernel = 0; kernel < 2; kernel++) {
+                for (int kernel = 0; kernel < 3; kernel++) {
                     bvh_options options = bvh_options_default();
                     bvh *tree = NULL;
                     options.max_leaf = leaf;

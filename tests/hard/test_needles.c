@@ -20,7 +20,7 @@
 #include "tests/kernels/trace.h"
 #include "exact/predicates.h"
 
-static const char *kernels[2] = {"packet16-primary", "mft-primary"};
+static const char *kernels[3] = {"packet16-primary", "mft-primary", "packet256-primary"};
 
 /* One triangle, exact answer against the kernel's: they may differ only within 4 units of an edge. */
 static void check_alone(const scene_triangle *t, const float org[3], float d[16][3], const char *what)
@@ -183,7 +183,7 @@ static void x6__no_area__removed_and_never_hit(void **state)
         scene_camera camera = pictures_camera(&r, shapes_places[1]);
         assert_true(tree->degenerate_count > 0);
         assert_int_equal(tree->degenerate_count + tree->record_count, s.triangle_count);
-        for (int kernel = 0; kernel < 2; kernel++) {
+        for (int kernel = 0; kernel < 3; kernel++) {
             trace_request request = {.kernel = kernels[kernel], .tree = tree, .camera = &camera, .width = 64, .height = 64, .jobs = 1};
             trace_picture p = trace_run(&request);
             for (size_t k = 0; k < p.pixels; k++)

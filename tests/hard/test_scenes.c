@@ -20,7 +20,7 @@
 #include "tests/kernels/trace.h"
 #include "exact/predicates.h"
 
-static const char *kernels[2] = {"packet16-primary", "mft-primary"};
+static const char *kernels[3] = {"packet16-primary", "mft-primary", "packet256-primary"};
 
 static void x10__all_places__hits_of_trying_all_triangles(void **state)
 {
@@ -103,7 +103,7 @@ static void x11__vertices_not_finite__refused_or_left_out(void **state)
         scene_camera camera = pictures_camera(&r, shapes_places[1]);
         bvh *tree = trace_tree(&s, 2), *clean_tree = trace_tree(&clean, 2);
         assert_int_equal(tree->degenerate_count, 50);
-        for (int kernel = 0; kernel < 2; kernel++) {
+        for (int kernel = 0; kernel < 3; kernel++) {
             trace_request request = {.kernel = kernels[kernel], .tree = tree, .camera = &camera, .width = 48, .height = 48, .jobs = 1};
             trace_picture p = trace_run(&request);
             request.tree = clean_tree;
@@ -129,7 +129,7 @@ static void x15__nothing_to_hit__background_and_no_work(void **state)
     (void)state;
     camera = pictures_camera(&r, shapes_places[1]);
     assert_int_equal(tree->record_count, 0);
-    for (int kernel = 0; kernel < 2; kernel++)
+    for (int kernel = 0; kernel < 3; kernel++)
         for (int level = LRB_NATIVE; level <= LRB_RECORD; level++) {
             trace_request request = {.kernel = kernels[kernel], .tree = tree, .camera = &camera, .width = 37, .height = 18,
                                      .level = level, .jobs = 1};
@@ -172,10 +172,10 @@ static void x15__root_is_a_leaf__all_accessed(void **state)
     scene_camera camera = pictures_camera(&r, shapes_places[1]);
     (void)state;
     assert_int_equal(tree->inner_count, 0);
-    for (int kernel = 0; kernel < 2; kernel++) {
+    for (int kernel = 0; kernel < 3; kernel++) {
         trace_request request = {.kernel = kernels[kernel], .tree = tree, .camera = &camera, .width = 32, .height = 32, .jobs = 1};
         trace_picture p = trace_run(&request), all = twin_brute_force(tree, &camera, 32, 32, 0);
-        uint64_t units = p.counts.n[KERNEL_units_packets] + p.counts.n[KERNEL_units_groups];
+        uint64_t units = p.counts.n[kernel ? KERNEL_units_groups : KERNEL_units_packets];
         trace_assert_equal(&p, &all, "root leaf");
         assert_int_equal(p.counts.n[KERNEL_aabb_tests], 0);
         assert_int_equal(p.counts.n[KERNEL_traversed_cells], units);
@@ -197,12 +197,12 @@ static void x15__depth_of_64__stack_holds(void **state)
         bvh *tree = bundle_chain(s.triangles, BVH_MAX_DEPTH, -3, 3);
         if (swapped)
             bundle_swap_children(tree);
-        for (int kernel = 0; kernel < 2; kernel++) {
+        for (int kernel = 0; kernel < 3; kernel++) {
             scene_camera camera = pictures_camera(&r, shapes_places[1]);
             trace_request request = {.kernel = kernels[kernel], .tree = tree, .camera = &camera, .width = 32, .height = 32, .jobs = 1};
             trace_picture p = trace_run(&request), all = twin_brute_force(tree, &camera, 32, 32, 0);
             trace_assert_equal(&p, &all, "depth 64");
-            assert_true(p.counts.n[KERNEL_traversed_inner] <= BVH_MAX_DEPTH * (p.counts.n[KERNEL_units_packets] + p.counts.n[KERNEL_units_groups]));
+            assert_true(p.counts.n[KERNEL_traversed_inner] <= BVH_MAX_DEPTH * p.counts.n[kernel ? KERNEL_units_groups : KERNEL_units_packets]);
             trace_free(&p);
             trace_free(&all);
         }

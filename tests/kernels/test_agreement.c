@@ -1,4 +1,4 @@
-/* The tracing kernels on the built-in scenes and on files: packets and frusta agree bit for bit (oracle O3), and hits are
+/* The tracing kernels on the built-in scenes and on files: packets, small and large, and frusta agree bit for bit (oracle O3), and hits are
  * those of Embree, with exact arithmetic as the judge (O1, O2).
  *
  * usage: test_agreement SIZE OF-OTHER-VIEWS [SCENE...]: pictures are SIZE x SIZE from the scene's own camera and smaller
@@ -145,8 +145,11 @@ static void check_view(const stage *st, const scene_camera *camera, unsigned siz
     request.kernel = "mft-primary";
     request.tree = st->shallow;
     trace_picture frusta = trace_run(&request);
+    request.kernel = "packet256-primary";
+    trace_picture groups = trace_run(&request);
     snprintf(what, sizeof what, "%.60s, %s, cull_backface %u", st->s->name, camera->name, cull);
     trace_assert_equal(&packets, &frusta, what);
+    trace_assert_equal(&packets, &groups, what);
     oracle_ray *rays = calloc(packets.pixels, sizeof *rays);
     assert_non_null(rays);
     trace_rays(st->deep, camera, size, size, rays);
@@ -155,6 +158,7 @@ static void check_view(const stage *st, const scene_camera *camera, unsigned siz
     free(rays);
     trace_free(&packets);
     trace_free(&frusta);
+    trace_free(&groups);
 }
 
 static void pictures__packets_and_frusta__agree_and_are_right(void **state)

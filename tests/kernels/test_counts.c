@@ -29,7 +29,7 @@ static scene_camera camera_at(base_random *r, double size)
     return scene_camera_look_at("random", eye, target, up, base_random_range(r, 0.2, 2.0));
 }
 
-static const char *kernel_names[2] = {"packet16-primary", "mft-primary"};
+static const char *kernel_names[3] = {"packet16-primary", "mft-primary", "packet256-primary"};
 
 static trace_picture kernel_picture(twin_kind kind, const bvh *tree, const scene_camera *camera, unsigned w, unsigned h, unsigned cull)
 {
@@ -46,7 +46,7 @@ static void assert_counts_equal(twin_kind kind, const kernel_counts *kernel, con
                      (unsigned long long)kernel->n[i], (unsigned long long)twin->n[i]);
 }
 
-/* Both kernels and both twins on one scene, with the leaf limits of their defaults. Brute force is asked once. */
+/* All kernels and their twins on one scene, with the leaf limits of their defaults. Brute force is asked once. */
 static void check_scene(const scene *s, const scene_camera *camera, unsigned w, unsigned h, unsigned cull, int brute, const char *what)
 {
     static const unsigned leaves[2] = {2, 8};
@@ -54,9 +54,10 @@ static void check_scene(const scene *s, const scene_camera *camera, unsigned w, 
     trace_picture reference = {0};
     if (brute)
         reference = twin_brute_force(tree[0], camera, w, h, (int)cull);
-    for (twin_kind kind = TWIN_PACKETS; kind <= TWIN_FRUSTA; kind++) {
-        trace_picture kernel = kernel_picture(kind, tree[kind], camera, w, h, cull);
-        trace_picture twin = twin_trace(kind, tree[kind], camera, w, h, (int)cull);
+    for (twin_kind kind = TWIN_PACKETS; kind <= TWIN_GROUPS; kind++) {
+        const bvh *of = tree[kind != TWIN_PACKETS];
+        trace_picture kernel = kernel_picture(kind, of, camera, w, h, cull);
+        trace_picture twin = twin_trace(kind, of, camera, w, h, (int)cull);
         trace_assert_equal(&kernel, &twin, what);
         assert_counts_equal(kind, &kernel.counts, &twin.counts, what);
         if (brute)
@@ -156,8 +157,9 @@ static void a2__image_sizes__rays_and_units_counted_exactly(void **state)
         for (unsigned h = 1; h <= 35; h += 2) {
             trace_picture packets = kernel_picture(TWIN_PACKETS, tree, &camera, w, h, 0);
             trace_picture frusta = kernel_picture(TWIN_FRUSTA, tree, &camera, w, h, 0);
+            trace_picture groups = kernel_picture(TWIN_GROUPS, tree, &camera, w, h, 0);
             uint64_t blocks = (uint64_t)((w + 3) / 4) * ((h + 3) / 4), tiles = (uint64_t)((w + 15) / 16) * ((h + 15) / 16);
-            const uint64_t *p = packets.counts.n, *f = frusta.counts.n;
+            const uint64_t *p = packets.counts.n, *f = frusta.counts.n, *g = groups.counts.n;
             assert_int_equal(p[KERNEL_rays], w * h);
             assert_int_equal(p[KERNEL_rays_primary], w * h);
             assert_int_equal(p[KERNEL_units_packets], blocks);
@@ -169,6 +171,13 @@ static void a2__image_sizes__rays_and_units_counted_exactly(void **state)
             assert_int_equal(f[KERNEL_units_frusta], blocks);
             assert_int_equal(f[KERNEL_units_common] + f[KERNEL_units_blend] + f[KERNEL_units_zero], tiles);
             assert_int_equal(f[KERNEL_units_packets], 0);
+            assert_int_equal(g[KERNEL_rays], w * h);
+            assert_int_equal(g[KERNEL_units_groups], tiles);
+            assert_int_equal(g[KERNEL_units_packets], blocks);
+            assert_int_equal(g[KERNEL_units_common] + g[KERNEL_units_blend] + g[KERNEL_units_zero], tiles);
+            if (blocks == 1) /* A5: a box of the group is a box of its only packet */
+                assert_int_equal(g[KERNEL_aabb_tests], g[KERNEL_aabb_group_tests]);
+            trace_free(&groups);
             trace_free(&packets);
             trace_free(&frusta);
         }
@@ -184,7 +193,7 @@ static void counts__unlisted_counters__stay_zero(void **state)
     scene_camera camera = camera_at(&r, 1);
     bvh *tree = trace_tree(&s, 4);
     (void)state;
-    for (twin_kind kind = TWIN_PACKETS; kind <= TWIN_FRUSTA; kind++) {
+    for (twin_kind kind = TWIN_PACKETS; kind <= TWIN_GROUPS; kind++) {
         trace_picture p = kernel_picture(kind, tree, &camera, 64, 64, 0);
         uint64_t listed = kernel_find(kernel_names[kind])->counters;
         for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
@@ -205,11 +214,13 @@ static void counts__definitions__relations_hold(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof leaves / sizeof *leaves; i++) {
         bvh *tree = trace_tree(&s, leaves[i]);
-        for (twin_kind kind = TWIN_PACKETS; kind <= TWIN_FRUSTA; kind++)
+        for (twin_kind kind = TWIN_PACKETS; kind <= TWIN_GROUPS; kind++)
             for (unsigned cull = 0; cull < 2; cull++) {
                 trace_picture p = kernel_picture(kind, tree, &camera, 96, 96, cull);
                 const uint64_t *n = p.counts.n;
-                assert_int_equal(n[KERNEL_aabb_tests], 2 * n[KERNEL_traversed_inner]);
+                assert_int_equal(n[kind == TWIN_GROUPS ? KERNEL_aabb_group_tests : KERNEL_aabb_tests], 2 * n[KERNEL_traversed_inner]);
+                if (kind == TWIN_GROUPS)
+                    assert_true(n[KERNEL_aabb_tests] >= n[KERNEL_aabb_group_tests] && n[KERNEL_aabb_tests] <= 16 * n[KERNEL_aabb_group_tests]);
                 assert_true(n[KERNEL_tri_accesses] >= n[KERNEL_tri_after_culling]);
                 assert_true(n[KERNEL_traversed_cells] >= n[KERNEL_traversed_inner]);
                 assert_true(n[KERNEL_tri_accesses] <= leaves[i] * (n[KERNEL_traversed_cells] - n[KERNEL_traversed_inner]));

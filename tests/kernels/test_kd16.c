@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include "scene/builtin.h"
+#include "tests/kernels/accel/soup.h"
 #include "tests/kernels/trace.h"
 #include "tests/kernels/views.h"
 
@@ -86,17 +87,29 @@ static void check_counts(const trace_picture *root, const trace_picture *entry, 
                  (unsigned long long)of(root, KERNEL_isect_tests), (unsigned long long)of(root, KERNEL_traversed_cells));
 }
 
+/* Empty occluders end searches early, and no hit is lost. */
+static void check_occluders(const stage *st, const scene_camera *camera, unsigned cull, const trace_picture *root, const char *what)
+{
+    kernel_params params = kernel_find("mlrta-primary")->defaults;
+    params.empty_occluders = 1;
+    trace_picture entry = run(st, "mlrta-primary", camera, cull, &params);
+    trace_assert_equal(root, &entry, what);
+    check_counts(root, &entry, what);
+    trace_free(&entry);
+}
+
 static void check_view(stage *st, const scene_camera *camera, unsigned cull)
 {
     char what[256];
     const scene_primary_rays rays = scene_camera_rays(camera, 1, 1);
-    assert_int_equal(kdtree_mark_occluders(st->kdtree, &rays.origin, 1, NULL), BASE_OK);
+    assert_int_equal(kdtree_mark_occluders(st->kdtree, &rays.origin, 1, cull, NULL), BASE_OK);
     snprintf(what, sizeof what, "%.60s, %s, cull_backface %u", st->s->name, camera->name, cull);
     trace_picture packets = run(st, "packet16-primary", camera, cull, NULL), root = run(st, "kd16-primary", camera, cull, NULL);
     trace_picture entry = run(st, "mlrta-primary", camera, cull, NULL);
     trace_assert_equal(&packets, &root, what);
     trace_assert_equal(&root, &entry, what);
     check_counts(&root, &entry, what);
+    check_occluders(st, camera, cull, &root, what);
     if (!cull)
         check_mailbox(st, camera, &root, what);
     trace_free(&packets);
@@ -255,10 +268,20 @@ static int blocked(const scene *s, const double light[3], const double d[3])
     return answer;
 }
 
+/* How far hit points are lifted off their surfaces: a ten-thousandth of the scene's diagonal (docs/kernels-mlrta.md). */
+static double lift_of(const kdtree *tree)
+{
+    double sum = 0;
+    for (int axis = 0; axis < 3; axis++)
+        sum += ((double)tree->max[axis] - (double)tree->min[axis]) * ((double)tree->max[axis] - (double)tree->min[axis]);
+    return 1e-4 * sqrt(sum);
+}
+
 /* The shadows of a picture against double arithmetic; returns how many pixels were decided. */
 static size_t check_shadows(const stage *st, const trace_picture *p, const scene_camera *camera)
 {
     oracle_ray *rays = calloc(p->pixels, sizeof *rays);
+    const double lift = lift_of(st->kdtree);
     size_t decided = 0;
     assert_non_null(rays);
     trace_rays(st->tree, camera, p->width, p->height, rays);
@@ -279,7 +302,7 @@ static size_t check_shadows(const stage *st, const trace_picture *p, const scene
         }
         for (int k = 0; k < 3; k++) {
             n[k] *= (facing > 0 ? -1 : 1) / sqrt(length);
-            d[k] = (double)rays[i].org[k] + (double)p->t[i] * (double)rays[i].dir[k] + 1e-3 * n[k] - light[k];
+            d[k] = (double)rays[i].org[k] + (double)p->t[i] * (double)rays[i].dir[k] + lift * n[k] - light[k];
             height += n[k] * d[k];
         }
         int dark = height > -1e-3 ? (height > 1e-3 ? 1 : -1) : blocked(st->s, light, d);
@@ -312,7 +335,8 @@ static void shadows__of_a_room__as_by_brute_force(void **state)
         m.shadow_packets = packets;
         trace_picture entry = run(&st, "mlrta-shadow", camera, 0, &m);
         trace_assert_equal(&root, &entry, "entry points of shadow rays");
-        assert_true(of(&entry, KERNEL_isect_tests) <= of(&other, KERNEL_isect_tests));
+        /* A leaf that no ray reaches, and that only the root's packets enter, may list a triangle that is hit outside of it. */
+        assert_true(100 * of(&entry, KERNEL_isect_tests) <= 101 * of(&other, KERNEL_isect_tests));
         assert_int_equal(of(&entry, KERNEL_rays), of(&root, KERNEL_rays));
         trace_free(&other);
         trace_free(&entry);
@@ -337,7 +361,7 @@ static void shadows__usual_scenes_hard_views__same_from_entry_points(void **stat
                 origins[0][axis] = rays.origin[axis];
                 origins[1][axis] = (float)st.s->light.point[axis];
             }
-            assert_int_equal(kdtree_mark_occluders(st.kdtree, (const float(*)[3])origins, 2, NULL), BASE_OK);
+            assert_int_equal(kdtree_mark_occluders(st.kdtree, (const float(*)[3])origins, 2, false, NULL), BASE_OK);
             trace_picture root = run(&st, "kd16-shadow", &v.camera[k], 0, NULL), entry = run(&st, "mlrta-shadow", &v.camera[k], 0, NULL);
             trace_assert_equal(&root, &entry, v.camera[k].name);
             trace_free(&root);
@@ -345,6 +369,75 @@ static void shadows__usual_scenes_hard_views__same_from_entry_points(void **stat
         }
         stage_destroy(&st);
     }
+}
+
+/* The job of mlrta-primary on a scene, with its whole picture traced. */
+static kernel_job *traced_job(const kdtree *tree, const scene_camera *camera, unsigned its)
+{
+    kernel_params p = kernel_find("mlrta-primary")->defaults;
+    lrb_ctx *c;
+    p.its = its;
+    kernel_job *job = trace_job(&(trace_request){.kernel = "mlrta-primary", .kdtree = tree, .camera = camera, .width = picture_size,
+                                                 .height = picture_size, .params = &p});
+    assert_int_equal(lrb_ctx_create(NULL, NULL, &c, NULL), BASE_OK);
+    for (uint32_t tile = 0; tile < kernel_job_tiles(job); tile++) {
+        kernel_counts n = {{0}};
+        kernel_find("mlrta-primary")->tile[LRB_NATIVE](c, job, tile, &n);
+    }
+    lrb_ctx_destroy(&c);
+    return job;
+}
+
+/* A room: what a packet sees is no more complex than the tree, and something where it has hit anything. */
+static void complexity__of_a_room__at_most_the_tree(void **state)
+{
+    stage st = stage_create("builtin:rooms-804");
+    kernel_job *job = traced_job(st.kdtree, &st.s->cameras[0], 3);
+    unsigned smaller = 0;
+    (void)state;
+    for (unsigned i = 0; i < picture_size * picture_size; i++) {
+        const uint32_t nodes = kernel_job_complexity(job, i % picture_size, i / picture_size);
+        const job_pixel p = kernel_job_pixel(job, i % picture_size, i / picture_size);
+        assert_true(nodes <= st.kdtree->sizes[0]);
+        assert_true(nodes > 0 || job->frame_host[p.tile].id[p.block][p.pixel] == JOB_NO_HIT);
+        smaller += nodes < st.kdtree->sizes[0];
+    }
+    assert_true(smaller > picture_size * picture_size / 4);
+    kernel_job_destroy(&job);
+    stage_destroy(&st);
+}
+
+/* A wall that all rays hit, much behind it: a leaf is all that is seen, but of a tile that meets the wall in several cells. Without the
+   wall there are tiles that see more; away from all nothing is seen. */
+static void complexity__wall_no_wall_nothing__mostly_leaves_more_none(void **state)
+{
+    static const double up[3] = {0, 1, 0}, eye[3] = {0.1, 0.2, 4}, ahead[3] = {1, 2, 0}, away[3] = {1, 2, 8};
+    scene s = soup_random(7, 60, 0.5), wall = soup_random(7, 61, 0.5);
+    const scene_camera to = scene_camera_look_at("to", eye, ahead, up, 0.3), from = scene_camera_look_at("from", eye, away, up, 0.3);
+    const float corners[3][3] = {{-90, -60, 2}, {90, -60, 2}, {0, 90, 2}};
+    const struct {
+        const scene *s;
+        const scene_camera *camera;
+        unsigned least;
+    } cases[3] = {{&wall, &to, 1}, {&s, &to, 0}, {&s, &from, 0}};
+    unsigned leaves[3] = {0, 0, 0}, larger[3] = {0, 0, 0};
+    (void)state;
+    memcpy(wall.triangles[60].v, corners, sizeof corners);
+    for (int i = 0; i < 3; i++) {
+        kdtree *tree = trace_kdtree(cases[i].s, cases[i].camera);
+        kernel_job *job = traced_job(tree, cases[i].camera, 0);
+        for (unsigned k = 0; k < picture_size * picture_size; k++) {
+            const uint32_t nodes = kernel_job_complexity(job, k % picture_size, k / picture_size);
+            assert_in_range(nodes, cases[i].least, UINT32_MAX);
+            leaves[i] += nodes == 1;
+            larger[i] += nodes > 1;
+        }
+        kernel_job_destroy(&job);
+        kdtree_destroy(&tree);
+    }
+    assert_true(leaves[0] > picture_size * picture_size / 2 && larger[1] > 0 && larger[2] + leaves[2] == 0);
+    soup_free(&s);
+    soup_free(&wall);
 }
 
 /* The levels and any number of host threads agree, counts and events too; each unit of work is on its own. */
@@ -384,6 +477,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(mlrta__corner_rays_only__hits_are_lost),
         cmocka_unit_test(shadows__of_a_room__as_by_brute_force),
         cmocka_unit_test(shadows__usual_scenes_hard_views__same_from_entry_points),
+        cmocka_unit_test(complexity__of_a_room__at_most_the_tree),
+        cmocka_unit_test(complexity__wall_no_wall_nothing__mostly_leaves_more_none),
         cmocka_unit_test(mlrta__levels_and_threads__same_results),
     };
     picture_size = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 100;

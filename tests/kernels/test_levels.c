@@ -13,9 +13,10 @@
 #include "scene/builtin.h"
 #include "tests/kernels/trace.h"
 
-enum { SIZE = 80, KERNELS = 5 };
+enum { SIZE = 80, KERNELS = 7 };
 
-static const char *kernel_names[KERNELS] = {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft", "mft-msaa"};
+static const char *kernel_names[KERNELS] = {"packet16-primary", "packet256-primary", "mft-primary", "packet16-soft", "packet256-soft", "mft-soft",
+                                             "mft-msaa"};
 
 typedef struct fixture {
     scene *s;
@@ -146,6 +147,7 @@ static void check_address(stream_check *s, const lrb_event *e, uint32_t bytes)
     if (!in_segment(e->aux, bytes, scratch) && !in_segment(e->aux, bytes, j->nodes) && !in_segment(e->aux, bytes, j->records) &&
         !in_segment(e->aux, bytes, j->constants) && !in_segment(e->aux, bytes, j->tiles) && !in_segment(e->aux, bytes, j->frame) &&
         !in_segment(e->aux, bytes, j->samples) && !in_segment(e->aux, bytes, j->normals) && !in_segment(e->aux, bytes, j->shadows) &&
+        !in_segment(e->aux, bytes, j->filter) && !in_segment(e->aux, bytes, j->rows) &&
         !in_segment(e->aux, bytes, j->msaa_constants) && !in_segment(e->aux, bytes, j->sample_constants) &&
         !in_segment(e->aux, bytes, j->msaa_tiles))
         complain(s, e, "an address in no segment");
@@ -205,7 +207,7 @@ static void stream__every_event__sources_and_addresses_valid(void **state)
     }
 }
 
-/* Tiles are independent: any order gives the same frame and the same events a tile. */
+/* Tiles of a pass are independent: any order gives the same frame and the same events a tile. */
 static void tiles__any_order__same_results(void **state)
 {
     const fixture *f = *state;
@@ -220,16 +222,18 @@ static void tiles__any_order__same_results(void **state)
             memset(job[turn]->frame_host, 0xa5, job[turn]->frame.size);
             if (job[turn]->shadows_host)
                 memset(job[turn]->shadows_host, 0xa5, job[turn]->shadows.size);
-            uint32_t tiles = kernel_job_tiles(job[turn]);
+            const uint32_t tiles = kernel_job_tiles(job[turn]), first = kernel_job_first_pass(job[turn]);
             for (uint32_t i = 0; i < tiles; i++) {
                 lrb_ctx_begin(c);
-                info->tile[LRB_RECORD](c, job[turn], turn ? tiles - 1 - i : i, &n[turn]);
+                info->tile[LRB_RECORD](c, job[turn], !turn ? i : i < first ? first - 1 - i : tiles - 1 - (i - first), &n[turn]);
                 lrb_ctx_end(c);
             }
         }
         assert_memory_equal(job[0]->frame_host, job[1]->frame_host, job[0]->frame.size);
         if (job[0]->shadows_host)
             assert_memory_equal(job[0]->shadows_host, job[1]->shadows_host, job[0]->shadows.size);
+        if (job[0]->rows_host)
+            assert_memory_equal(job[0]->rows_host, job[1]->rows_host, job[0]->rows.size);
         assert_memory_equal(&n[0], &n[1], sizeof n[0]);
         kernel_job_destroy(&job[0]);
         kernel_job_destroy(&job[1]);

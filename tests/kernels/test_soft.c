@@ -1,4 +1,4 @@
-/* Soft shadows: packets, frusta and all ways to shrink them block the same rays (hard case B14), and those that Embree and exact
+/* Soft shadows: packets, groups of them, frusta and all ways to shrink them block the same rays (hard case B14), and those that Embree and exact
  * arithmetic say are blocked.
  *
  * usage: test_soft SIZE [SCENE...]: pictures of the small built-in scenes, and of these, are SIZE x SIZE.
@@ -23,12 +23,12 @@
 #include "tests/oracles/embree_oracle.h"
 #include "exact/predicates.h"
 
-enum { JOBS = 2, WAYS = 5 };
+enum { JOBS = 2, WAYS = 6 };
 
 static unsigned picture_size;
 
-/* packet16-soft, then mft-soft with each way to shrink. */
-static const char *way_name(int way) { return way ? "mft-soft" : "packet16-soft"; }
+/* packet16-soft, packet256-soft, then mft-soft with each way to shrink. */
+static const char *way_name(int way) { return way > 1 ? "mft-soft" : way ? "packet256-soft" : "packet16-soft"; }
 
 static trace_picture trace_way(int way, const bvh *const tree[2], const scene *s, const scene_camera *camera, const kernel_params *change,
                                unsigned width, unsigned height)
@@ -37,7 +37,7 @@ static trace_picture trace_way(int way, const bvh *const tree[2], const scene *s
     params.samples = change->samples;
     params.light_scale = change->light_scale;
     params.net = change->net;
-    params.shrink = way > 0 ? (unsigned)way - 1 : 0;
+    params.shrink = way > 1 ? (unsigned)way - 2 : 0;
     trace_request request = {.kernel = way_name(way), .tree = tree[way > 0], .camera = camera, .width = width, .height = height,
                              .cull = change->cull_backface, .params = &params, .light = &s->light, .level = LRB_NATIVE, .jobs = JOBS};
     return trace_run(&request);
@@ -53,11 +53,11 @@ static trace_picture trace_all_ways(const scene *s, const scene_camera *camera, 
     for (int way = 1; way < WAYS; way++) {
         char text[256];
         trace_picture frusta = trace_way(way, tree, s, camera, change, width, height);
-        snprintf(text, sizeof text, "%s, shrink %d, cull_backface %u, light x %g", what, way - 1, change->cull_backface,
-                 change->light_scale);
+        snprintf(text, sizeof text, "%s, %s, shrink %d, cull_backface %u, light x %g", what, way_name(way), way > 1 ? way - 2 : 0,
+                 change->cull_backface, change->light_scale);
         trace_assert_equal(&packets, &frusta, text);
         assert_int_equal(packets.counts.n[KERNEL_rays_shadow], frusta.counts.n[KERNEL_rays_shadow]);
-        assert_int_equal(packets.counts.n[KERNEL_units_shadow_packets], frusta.counts.n[KERNEL_units_shadow_frusta]);
+        assert_int_equal(packets.counts.n[KERNEL_units_shadow_packets], frusta.counts.n[way > 1 ? KERNEL_units_shadow_frusta : KERNEL_units_shadow_packets]);
         trace_free(&frusta);
     }
     bvh_destroy(&deep);

@@ -15,7 +15,7 @@
 #include "tests/kernels/accel/soup.h"
 #include "tests/kernels/trace.h"
 
-enum { SIZE = 32, WAYS = 5 };
+enum { SIZE = 32, WAYS = 6 };
 
 /* A ground of 2 triangles at y = 0, up to `reach` from the origin, facing up, and room for others. */
 static scene ground(float reach, size_t others)
@@ -53,14 +53,17 @@ static scene_camera above(void)
     return scene_camera_look_at("above", eye, target, up, 0.6);
 }
 
+/* packet16-soft, packet256-soft, then mft-soft with each way to shrink. */
+static const char *way_name(int way) { return way > 1 ? "mft-soft" : way ? "packet256-soft" : "packet16-soft"; }
+
 static trace_picture trace_way(int way, const scene *s, const scene_camera *camera, unsigned samples, double light_scale)
 {
-    const char *name = way ? "mft-soft" : "packet16-soft";
+    const char *name = way_name(way);
     bvh *tree = trace_tree(s, way ? 8 : 2);
     kernel_params params = kernel_find(name)->defaults;
     params.samples = samples;
     params.light_scale = light_scale;
-    params.shrink = way ? (unsigned)way - 1 : 0;
+    params.shrink = way > 1 ? (unsigned)way - 2 : 0;
     trace_request request = {.kernel = name, .tree = tree, .camera = camera, .width = SIZE, .height = SIZE, .params = &params,
                              .light = &s->light, .level = LRB_NATIVE, .jobs = 1};
     trace_picture p = trace_run(&request);
@@ -75,7 +78,7 @@ static trace_picture trace_all(const scene *s, const scene_camera *camera, unsig
     for (int way = 1; way < WAYS; way++) {
         trace_free(&other);
         other = trace_way(way, s, camera, samples, light_scale);
-        trace_assert_equal(&first, &other, kernel_find("mft-soft")->name);
+        trace_assert_equal(&first, &other, way_name(way));
     }
     trace_free(&first);
     return other;
@@ -182,7 +185,7 @@ static void b10__large_and_near__zero_path(void **state)
     (void)state;
     s.light = square_light(0, 3.5, 0, 500);
     assert_all_visible(&s, 1, 1);
-    trace_picture p = trace_way(1, &s, &camera, 16, 1);
+    trace_picture p = trace_way(2, &s, &camera, 16, 1);
     assert_true(p.counts.n[KERNEL_units_zero] >= SIZE * SIZE / 16); /* each block's group */
     trace_free(&p);
     soup_free(&s);
@@ -257,7 +260,7 @@ static void b11__bars_one_by_one__all_ways_agree(void **state)
             put_rectangle(&s, 2 + 2 * (size_t)i, -0.7f, at, 0.7f, at + 0.033f, y);
     }
     s.light = square_light(0, 2, 0, 0.8);
-    trace_picture p = trace_all(&s, &camera, 16, 1), shrinking = trace_way(2, &s, &camera, 16, 1);
+    trace_picture p = trace_all(&s, &camera, 16, 1), shrinking = trace_way(3, &s, &camera, 16, 1);
     int by_left[17] = {0};
     for (size_t i = 0; i < p.pixels; i++)
         by_left[16 - __builtin_popcount(p.occlusion[i] & 0xffff)]++;
@@ -282,8 +285,8 @@ static void a4__all_blocked_at_once__traversal_ends(void **state)
     s.light = square_light(0.3, 5, 0.2, 1);
     for (int way = 0; way < WAYS; way++) {
         bvh *tree = trace_tree(&s, way ? 8 : 2);
-        trace_request primary = {.kernel = way ? "mft-primary" : "packet16-primary", .tree = tree, .camera = &camera, .width = SIZE,
-                                 .height = SIZE, .level = LRB_NATIVE, .jobs = 1};
+        trace_request primary = {.kernel = way > 1 ? "mft-primary" : way ? "packet256-primary" : "packet16-primary", .tree = tree,
+                                 .camera = &camera, .width = SIZE, .height = SIZE, .level = LRB_NATIVE, .jobs = 1};
         trace_picture before = trace_run(&primary), p = trace_way(way, &s, &camera, 16, 1);
         const uint64_t units = p.counts.n[way ? KERNEL_units_shadow_groups : KERNEL_units_shadow_packets];
         for (size_t i = 0; i < p.pixels; i++)

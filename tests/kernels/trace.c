@@ -28,6 +28,7 @@ typedef struct trace_run_state {
     kernel_tile_fn *tile;
     trace_worker *workers;
     uint64_t *tile_hashes;
+    size_t pass; /* first tile of it */
 } trace_run_state;
 
 /* Hash of a stream in which an op stands as its name and form, not as its number: a new row of the table changes no hash. */
@@ -62,11 +63,12 @@ static void trace_tile(void *user, size_t piece, unsigned worker)
 {
     trace_run_state *r = user;
     trace_worker *w = &r->workers[worker];
+    const size_t tile = r->pass + piece;
     w->tile_hash = BASE_HASH_START;
     lrb_ctx_begin(w->c);
-    r->tile(w->c, r->job, (uint32_t)piece, &w->counts);
+    r->tile(w->c, r->job, (uint32_t)tile, &w->counts);
     lrb_ctx_end(w->c);
-    r->tile_hashes[piece] = w->tile_hash;
+    r->tile_hashes[tile] = w->tile_hash;
 }
 
 /* A hash of a pixel's samples; 0 for none. */
@@ -85,6 +87,7 @@ static uint32_t hash_samples(const kernel_job *job, unsigned x, unsigned y)
 
 static void gather_pixels(const kernel_job *job, trace_picture *picture)
 {
+    picture->soft = job->rows_host != NULL;
     for (unsigned y = 0; y < picture->height; y++)
         for (unsigned x = 0; x < picture->width; x++) {
             size_t i = (size_t)y * picture->width + x;
@@ -100,6 +103,10 @@ static void gather_pixels(const kernel_job *job, trace_picture *picture)
                 continue;
             picture->occlusion[i] = job->shadows_host[p.tile].occlusion[p.block][p.pixel];
             picture->visibility[i] = job->shadows_host[p.tile].visibility[p.block][p.pixel];
+            if (!picture->soft)
+                continue;
+            picture->filtered[i] = kernel_job_row(job, x, y)->filtered[x % 16];
+            picture->lit[i] = kernel_job_row(job, x, y)->lit[x % 16];
         }
 }
 
@@ -122,7 +129,9 @@ trace_picture trace_picture_create(unsigned width, unsigned height)
     p.v = calloc(p.pixels, sizeof *p.v);
     p.occlusion = calloc(p.pixels, sizeof *p.occlusion);
     p.visibility = calloc(p.pixels, sizeof *p.visibility);
-    assert_true(p.id && p.t && p.u && p.v && p.occlusion && p.visibility);
+    p.filtered = calloc(p.pixels, sizeof *p.filtered);
+    p.lit = calloc(p.pixels, sizeof *p.lit);
+    assert_true(p.id && p.t && p.u && p.v && p.occlusion && p.visibility && p.filtered && p.lit);
     return p;
 }
 
@@ -153,7 +162,9 @@ trace_picture trace_run(const trace_request *request)
     assert_true(r.workers && r.tile_hashes);
     for (unsigned i = 0; i < request->jobs; i++)
         assert_int_equal(lrb_ctx_create(take_events, &r.workers[i], &r.workers[i].c, NULL), BASE_OK);
-    base_parallel_for(request->jobs, kernel_job_tiles(job), trace_tile, &r);
+    base_parallel_for(request->jobs, kernel_job_first_pass(job), trace_tile, &r);
+    r.pass = kernel_job_first_pass(job);
+    base_parallel_for(request->jobs, kernel_job_tiles(job) - r.pass, trace_tile, &r);
     picture.events_hash = base_hash(BASE_HASH_START, r.tile_hashes, kernel_job_tiles(job) * sizeof *r.tile_hashes);
     for (unsigned i = 0; i < request->jobs; i++) {
         gather_worker(&picture, &r.workers[i], request->level);
@@ -174,6 +185,8 @@ void trace_free(trace_picture *picture)
     free(picture->v);
     free(picture->occlusion);
     free(picture->visibility);
+    free(picture->filtered);
+    free(picture->lit);
     *picture = (trace_picture){0};
 }
 
@@ -198,7 +211,7 @@ kdtree *trace_kdtree(const scene *s, const scene_camera *camera)
     options.jobs = 2;
     if (kdtree_build(s, &options, &tree, &err) != BASE_OK)
         fail_msg("%s: %s", err.what, err.why);
-    assert_int_equal(kdtree_mark_occluders(tree, &rays.origin, 1, NULL), BASE_OK);
+    assert_int_equal(kdtree_mark_occluders(tree, &rays.origin, 1, true, NULL), BASE_OK);
     return tree;
 }
 
@@ -274,7 +287,8 @@ static int pixel_equal(const trace_picture *a, const trace_picture *b, size_t i)
 {
     return a->id[i] == b->id[i] && memcmp(&a->t[i], &b->t[i], 4) == 0 && memcmp(&a->u[i], &b->u[i], 4) == 0 &&
            memcmp(&a->v[i], &b->v[i], 4) == 0 && a->occlusion[i] == b->occlusion[i] &&
-           memcmp(&a->visibility[i], &b->visibility[i], 4) == 0;
+           memcmp(&a->visibility[i], &b->visibility[i], 4) == 0 && memcmp(&a->filtered[i], &b->filtered[i], 4) == 0 &&
+           memcmp(&a->lit[i], &b->lit[i], 4) == 0;
 }
 
 trace_difference trace_compare(const trace_picture *a, const trace_picture *b)
@@ -308,5 +322,9 @@ uint64_t trace_hash(const trace_picture *picture)
     if (!picture->counts.n[KERNEL_rays_shadow] && !picture->counts.n[KERNEL_rays_msaa])
         return hash;
     hash = base_hash(hash, picture->occlusion, picture->pixels * sizeof *picture->occlusion);
-    return base_hash(hash, picture->visibility, picture->pixels * sizeof *picture->visibility);
+    hash = base_hash(hash, picture->visibility, picture->pixels * sizeof *picture->visibility);
+    if (!picture->soft)
+        return hash;
+    hash = base_hash(hash, picture->filtered, picture->pixels * sizeof *picture->filtered);
+    return base_hash(hash, picture->lit, picture->pixels * sizeof *picture->lit);
 }

@@ -2,6 +2,7 @@
 #ifndef TESTS_KERNELS_TRACE_H
 #define TESTS_KERNELS_TRACE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -10,11 +11,13 @@
 
 typedef struct trace_picture {
     unsigned width, height;
+    bool soft;       /* of a kernel with soft shadows */
     size_t pixels;   /* width * height */
     uint32_t *id;    /* pixels each, row by row from the top left; owned */
     float *t, *u, *v;
     uint32_t *occlusion; /* of kernels that trace shadows, else 0: bits of the last set of samples (of mft-msaa a hash of a pixel's samples)... */
     float *visibility;   /* ...and what is seen of the light */
+    float *filtered, *lit; /* of soft shadows, else 0: visibility as the filter leaves it, and times the shading */
     kernel_counts counts;
     uint64_t ops[LRB_OP_COUNT]; /* COUNT: the context's histogram; RECORD: that of the events; NATIVE: 0 */
     uint64_t idle_lanes;        /* likewise */
@@ -48,7 +51,8 @@ void trace_free(trace_picture *picture);
 /** The tree with a leaf limit; free it with bvh_destroy. Any failure fails the running test. */
 bvh *trace_tree(const scene *s, unsigned max_leaf);
 
-/** The kd-tree of a scene with a kernel's default parameters, its occluders marked for the camera; free it with kdtree_destroy. */
+/** The kd-tree of a scene with a kernel's default parameters, its occluders marked for the camera and rays
+    that do not see back faces; free it with kdtree_destroy. */
 kdtree *trace_kdtree(const scene *s, const scene_camera *camera);
 
 /* The tree that a kernel traverses; the other is NULL. */

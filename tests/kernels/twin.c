@@ -149,7 +149,7 @@ trace_picture twin_brute_force(const bvh *tree, const scene_camera *camera, unsi
     return p;
 }
 
-/* ---- traversal: a unit is a packet of 16 rays, or a group of 16 frusta ---- */
+/* ---- traversal: a unit is a packet of 16 rays, or a group of 16 frusta or of 16 packets ---- */
 
 /* The interval of directions of one lane, and what the box test makes of it. */
 typedef struct twin_lane {
@@ -170,6 +170,7 @@ typedef struct twin_state {
     int cull;
     kernel_counts *n;
     twin_unit unit;
+    twin_unit packet[16];      /* of a group of packets */
     uint32_t tile;
     unsigned block;            /* of a packet */
     float first_ray[16][3];    /* of the blocks */
@@ -185,23 +186,23 @@ static void first_rays(const kernel_job *job, uint32_t tile, float out[16][3])
             out[f][axis] = fmaf(t->y + k->block_y[f], k->dy[axis], fmaf(t->x + k->block_x[f], k->dx[axis], k->d00[axis]));
 }
 
-/* The intervals of a unit's lanes: of a ray itself, or of the four extreme rays of a block. */
-static void unit_intervals(twin_state *s)
+/* The intervals of a unit's lanes: of the four extreme rays of each block, or of the rays of one. */
+static void unit_intervals(const twin_state *s, twin_unit *u, int frusta, unsigned packet)
 {
     static const int corners[4] = {0, 3, 15, 12};
     const job_constants *k = s->job->constants_host;
     for (unsigned i = 0; i < 16; i++)
         for (int axis = 0; axis < 3; axis++) {
             float lo = INFINITY, hi = -INFINITY;
-            for (int corner = 0; corner < (s->kind == TWIN_FRUSTA ? 4 : 1); corner++) {
-                unsigned block = s->kind == TWIN_FRUSTA ? i : s->block;
-                int pixel = s->kind == TWIN_FRUSTA ? corners[corner] : (int)i;
+            for (int corner = 0; corner < (frusta ? 4 : 1); corner++) {
+                unsigned block = frusta ? i : packet;
+                int pixel = frusta ? corners[corner] : (int)i;
                 float d = s->first_ray[block][axis] + k->delta[axis][pixel];
                 lo = fminf(lo, d);
                 hi = fmaxf(hi, d);
             }
-            s->unit.lane[i].lo[axis] = lo - k->slack;
-            s->unit.lane[i].hi[axis] = hi + k->slack;
+            u->lane[i].lo[axis] = lo - k->slack;
+            u->lane[i].hi[axis] = hi + k->slack;
         }
 }
 
@@ -224,15 +225,18 @@ static int signs_mixed(const twin_unit *u)
     return 0;
 }
 
-static void unit_start(twin_state *s, unsigned active)
+/* Whether some active lane has no sign on some axis. */
+static int signs_lacking(const twin_unit *u)
 {
-    twin_unit *u = &s->unit;
-    unit_intervals(s);
-    u->active = active;
-    u->some_zero = 0;
+    int lacking = 0;
     for (unsigned i = 0; i < 16; i++)
         for (int axis = 0; axis < 3; axis++)
-            u->some_zero |= (active >> i & 1) && sign_of(&u->lane[i], axis) == 0;
+            lacking |= (u->active >> i & 1) && sign_of(&u->lane[i], axis) == 0;
+    return lacking;
+}
+
+static void unit_reciprocals(twin_unit *u)
+{
     for (unsigned i = 0; i < 16; i++)
         for (int axis = 0; axis < 3; axis++) {
             twin_lane *l = &u->lane[i];
@@ -242,7 +246,50 @@ static void unit_start(twin_state *s, unsigned active)
             l->near_rcp[axis] = reciprocal(u->some_zero ? fmaxf(l->hi[axis], 1e-18f) : negative ? l->lo[axis] : l->hi[axis]);
             l->back_rcp[axis] = reciprocal(fminf(l->lo[axis], -1e-18f));
         }
-    s->n->n[u->some_zero ? KERNEL_units_zero : signs_mixed(u) ? KERNEL_units_blend : KERNEL_units_common]++;
+}
+
+static void count_path(twin_state *s, int some_zero, int mixed)
+{
+    s->n->n[some_zero ? KERNEL_units_zero : mixed ? KERNEL_units_blend : KERNEL_units_common]++;
+}
+
+static void unit_start(twin_state *s, unsigned active)
+{
+    twin_unit *u = &s->unit;
+    unit_intervals(s, u, s->kind == TWIN_FRUSTA, s->block);
+    u->active = active;
+    u->some_zero = signs_lacking(u);
+    unit_reciprocals(u);
+    count_path(s, u->some_zero, signs_mixed(u));
+}
+
+/* The limits of a group's rays: their nearest hits, and none for what is no pixel. */
+static void group_limits(twin_state *s)
+{
+    for (unsigned f = 0; f < 16; f++)
+        for (unsigned j = 0; j < 16; j++)
+            s->packet[f].lane[j].limit = s->job->tiles_host[s->tile].pixels[f] >> j & 1 ? s->hit[f][j].t : -INFINITY;
+}
+
+/* A group's signs are alike if its frusta's are; else it is the rays that have signs or lack them. */
+static void group_start(twin_state *s, unsigned active)
+{
+    twin_unit *u = &s->unit;
+    int some_zero = 0;
+    unit_intervals(s, u, 1, 0);
+    u->active = active;
+    const int mixed = signs_lacking(u) || signs_mixed(u);
+    for (unsigned f = 0; f < 16; f++) {
+        unit_intervals(s, &s->packet[f], 0, f);
+        s->packet[f].active = active >> f & 1 ? 0xffff : 0;
+        some_zero |= mixed && signs_lacking(&s->packet[f]);
+    }
+    for (unsigned f = 0; f < 16; f++) {
+        s->packet[f].some_zero = some_zero;
+        unit_reciprocals(&s->packet[f]);
+    }
+    group_limits(s);
+    count_path(s, some_zero, mixed);
 }
 
 /* One lane against one box; the entry distance in *entry. */
@@ -265,14 +312,43 @@ static int lane_meets(const twin_lane *l, int some_zero, const bvh_node *box, co
     return e <= x;
 }
 
-static unsigned unit_meets(twin_state *s, const bvh_node *box, unsigned m, float entry[16])
+static unsigned unit_meets(twin_state *s, const twin_unit *u, const bvh_node *box, unsigned m, float entry[16])
 {
     unsigned hit = 0;
     s->n->n[KERNEL_aabb_tests]++;
     for (unsigned i = 0; i < 16; i++)
         if (m >> i & 1)
-            hit |= (unsigned)lane_meets(&s->unit.lane[i], s->unit.some_zero, box, s->job->constants_host->origin_box, &entry[i]) << i;
+            hit |= (unsigned)lane_meets(&u->lane[i], u->some_zero, box, s->job->constants_host->origin_box, &entry[i]) << i;
     return hit;
+}
+
+/* Whether some lane that meets both boxes of a pair enters the first before the second. */
+static int unit_first_nearer(twin_state *s, const twin_unit *u, const bvh_node *pair, unsigned m, unsigned hit[2])
+{
+    float entry[2][16];
+    int nearer = 0;
+    for (int box = 0; box < 2; box++)
+        hit[box] = unit_meets(s, u, &pair[box], m, entry[box]);
+    for (unsigned i = 0; i < 16; i++)
+        nearer |= (hit[0] & hit[1] & m) >> i & 1 && entry[0][i] < entry[1][i];
+    return nearer;
+}
+
+/* The same for a group of packets: `hit` is by packet, and it is rays that meet boxes. */
+static int group_first_nearer(twin_state *s, const bvh_node *pair, unsigned m, unsigned hit[2])
+{
+    int nearer = 0;
+    s->n->n[KERNEL_aabb_group_tests] += 2;
+    hit[0] = hit[1] = 0;
+    for (unsigned f = 0; f < 16; f++) {
+        unsigned rays[2];
+        if (!(m >> f & 1))
+            continue;
+        nearer |= unit_first_nearer(s, &s->packet[f], pair, 0xffff, rays);
+        hit[0] |= (unsigned)(rays[0] != 0) << f;
+        hit[1] |= (unsigned)(rays[1] != 0) << f;
+    }
+    return nearer;
 }
 
 /* Lanes (frusta) whose four corner rays do not all lie beyond one edge of the triangle. */
@@ -337,7 +413,7 @@ static void packet_leaf(twin_state *s, const bvh_triangle *records, uint32_t cou
         s->unit.lane[i].limit = s->hit[s->block][i].t;
 }
 
-static void frusta_leaf(twin_state *s, const bvh_triangle *records, uint32_t count, unsigned m)
+static void group_leaf(twin_state *s, const bvh_triangle *records, uint32_t count, unsigned m)
 {
     unsigned updated = 0;
     for (uint32_t k = 0; k < count; k++) {
@@ -350,6 +426,10 @@ static void frusta_leaf(twin_state *s, const bvh_triangle *records, uint32_t cou
         for (unsigned f = 0; f < 16; f++)
             if (kept >> f & 1)
                 updated |= (unsigned)block_intersect(s, &triangle, f, s->job->tiles_host[s->tile].pixels[f]) << f;
+    }
+    if (s->kind == TWIN_GROUPS) {
+        group_limits(s);
+        return;
     }
     for (unsigned f = 0; f < 16; f++) {
         float farthest = -INFINITY;
@@ -370,21 +450,14 @@ static void visit(twin_state *s, const bvh_node *node, unsigned m)
         if (s->kind == TWIN_PACKETS)
             packet_leaf(s, records, node->count, m);
         else
-            frusta_leaf(s, records, node->count, m);
+            group_leaf(s, records, node->count, m);
         return;
     }
     const bvh_node *pair = tree->nodes + node->link / sizeof *pair;
-    float entry[2][16];
     unsigned met[2];
     s->n->n[KERNEL_traversed_inner]++;
-    met[0] = unit_meets(s, &pair[0], m, entry[0]);
-    met[1] = unit_meets(s, &pair[1], m, entry[1]);
-    int first = met[0] ? 0 : 1;
-    for (unsigned i = 0; met[0] && met[1] && i < 16; i++) {
-        first = (met[0] & met[1]) >> i & 1 && entry[0][i] < entry[1][i] ? 0 : 1;
-        if (first == 0)
-            break;
-    }
+    const int nearer = s->kind == TWIN_GROUPS ? group_first_nearer(s, pair, m, met) : unit_first_nearer(s, &s->unit, pair, m, met);
+    const int first = met[0] && (nearer || !met[1]) ? 0 : 1;
     for (int turn = 0; turn < 2; turn++)
         if (met[first ^ turn])
             visit(s, &pair[first ^ turn], met[first ^ turn]);
@@ -392,7 +465,10 @@ static void visit(twin_state *s, const bvh_node *node, unsigned m)
 
 static void trace_unit(twin_state *s, unsigned active)
 {
-    unit_start(s, active);
+    if (s->kind == TWIN_GROUPS)
+        group_start(s, active);
+    else
+        unit_start(s, active);
     if (s->job->record_count)
         visit(s, &s->job->tree->nodes[0], active);
 }
@@ -403,9 +479,9 @@ static void trace_tile(twin_state *s)
     first_rays(s->job, s->tile, s->first_ray);
     for (unsigned i = 0; i < 256; i++)
         s->hit[i / 16][i % 16] = twin_hit_none();
-    if (s->kind == TWIN_FRUSTA) {
+    if (s->kind != TWIN_PACKETS) {
         s->n->n[KERNEL_units_groups]++;
-        s->n->n[KERNEL_units_frusta] += (unsigned)__builtin_popcount(tile->blocks);
+        s->n->n[s->kind == TWIN_FRUSTA ? KERNEL_units_frusta : KERNEL_units_packets] += (unsigned)__builtin_popcount(tile->blocks);
         trace_unit(s, tile->blocks);
         return;
     }

@@ -1,7 +1,7 @@
 /* Plain scalar twins of the tracing kernels: the same float operations written out one ray at a time, no lanes, no ops.
  *
  * twin_brute_force tries every triangle for every ray: what the kernels must find, whatever their traversal and culling
- * leave out (oracle O3). twin_trace traverses a tree as packets or as frusta and counts by the definitions of
+ * leave out (oracle O3). twin_trace traverses a tree as packets, frusta or groups of packets and counts by the definitions of
  * algorithms A.3.
  */
 #ifndef TESTS_KERNELS_TWIN_H
@@ -39,9 +39,9 @@ int twin_intersect(const twin_triangle *triangle, int cull, const float directio
 /** Nearest hits of all pixels by trying all of the tree's triangle records; free with trace_free. */
 trace_picture twin_brute_force(const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, int cull);
 
-typedef enum twin_kind { TWIN_PACKETS, TWIN_FRUSTA } twin_kind;
+typedef enum twin_kind { TWIN_PACKETS, TWIN_FRUSTA, TWIN_GROUPS } twin_kind;
 
-/** The picture and counts of packet16-primary or mft-primary; free with trace_free. */
+/** The picture and counts of packet16-primary, mft-primary or packet256-primary; free with trace_free. */
 trace_picture twin_trace(twin_kind kind, const bvh *tree, const scene_camera *camera, unsigned width, unsigned height, int cull);
 
 #endif

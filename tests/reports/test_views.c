@@ -11,10 +11,12 @@
 
 #include "reports/paper.h"
 #include "reports/views/mft_light_size.h"
+#include "reports/views/mft_packet256.h"
 #include "reports/views/mft_prediction.h"
 #include "reports/views/mft_quality.h"
 #include "reports/views/mft_table1.h"
 #include "reports/views/mft_table2.h"
+#include "reports/views/mlrta_adaptive.h"
 #include "reports/views/model_speeds.h"
 
 /* A cell of a table's JSON. */
@@ -96,6 +98,26 @@ static void prediction__known_costs__known_cycles(void **state)
     json_decref(costs);
 }
 
+/* The reading with the least error is the one whose costs were chosen; a row that it is far off in is put down to its main event. */
+static void prediction__far_row__the_event_that_makes_it_so(void **state)
+{
+    (void)state;
+    const char *const machines[] = {"one", "two"};
+    const double cost[MFT_EVENTS] = {0, 1000, 0, 0};
+    mft_events events[8];
+    make_events(events, cost);
+    const mft_measured m = {machines, 2, events, 8, 2};
+    json_t *far = json_of(mft_prediction_far(&m)), *left = json_of(mft_prediction_left(&m, NULL));
+    assert_true(fabs(number(left, 0, "T-Rex (69K tri)") - 94.1e6 / 1218e3) < 0.06 && number(left, 0, "a box costs here") == 1000);
+    json_decref(left);
+    assert_int_equal(json_array_size(json_object_get(far, "rows")), 8);
+    assert_string_equal(json_string_value(cell(far, 0, "most cycles are for")), "AABB test, a box");
+    assert_true(fabs(number(far, 0, "cost that would be right") - 94.1e6 / 1218e3) < 0.06);
+    assert_true(number(far, 0, "share") == 100 && number(far, 0, "one") == 1000 && number(far, 0, "two") == 2000);
+    assert_true(fabs(number(far, 0, "error") - 100 * (1218e3 * 1000 / 94.1e6 - 1)) < 0.06);
+    json_decref(far);
+}
+
 static void prediction__event_that_did_not_happen__rows_missing_and_said(void **state)
 {
     (void)state;
@@ -109,8 +131,8 @@ static void prediction__event_that_did_not_happen__rows_missing_and_said(void **
     const mft_measured m = {machines, 2, events, 8, 2};
     json_t *rows = json_of(mft_prediction_rows(&m, NULL)), *summary = json_of(mft_prediction_summary(&m, NULL));
     assert_true(json_is_null(cell(rows, 1, "predicted")) && json_is_null(cell(rows, 1, "error")));
-    assert_true(json_is_null(cell(summary, 0, "frusta, worst")));
-    assert_true(number(summary, 0, "packets, worst") == number(summary, 0, "all, worst"));
+    assert_true(json_is_null(cell(summary, 0, "P-Frusta, worst")));
+    assert_true(number(summary, 0, "P-Packet, worst") == number(summary, 0, "all, worst"));
     assert_int_equal(json_array_size(json_object_get(summary, "notes")), 3);
     json_decref(rows);
     json_decref(summary);
@@ -219,6 +241,26 @@ static void light_size__two_scenes__ratios_and_a_series_for_each(void **state)
     json_decref(counts);
 }
 
+static void packet256__one_scene__against_frusta_and_packets(void **state)
+{
+    (void)state;
+    const mft_packet256_row row = {.packet16 = {.scene = "a", .algorithm = MFT_S_PACKET, .pixels = 10, .value = {8, 8, 24, 6, 50}},
+                                   .packet256 = {.scene = "a", .algorithm = MFT_S_PACKET, .pixels = 10, .value = {4, 2, 90, 6, 100}},
+                                   .frusta = {.scene = "a", .algorithm = MFT_S_FRUSTA, .pixels = 10, .value = {4, 2, 20, 12, 30}},
+                                   .boxes = 19};
+    json_t *ratios = json_of(mft_packet256_ratios(&row, 1, NULL)), *counts = json_of(mft_packet256_counts(&row, 1, NULL));
+    assert_string_equal(json_string_value(cell(ratios, 0, "rays")), "primary and shadow");
+    assert_string_equal(json_string_value(cell(ratios, 0, "boxes against frusta")), "5.0% fewer");
+    assert_string_equal(json_string_value(cell(ratios, 0, "AABB tests against frusta")), "4.50 times");
+    assert_string_equal(json_string_value(cell(ratios, 0, "speed against frusta")), "30%");
+    assert_string_equal(json_string_value(cell(ratios, 0, "speed against packets of 16")), "50%");
+    assert_string_equal(json_string_value(cell(ratios, 1, "boxes against frusta")), "3% to 4% fewer");
+    assert_string_equal(json_string_value(cell(counts, 1, "algorithm")), "S-Packet, 256 rays");
+    assert_true(number(counts, 0, "boxes") == 24 && number(counts, 1, "boxes") == 19 && number(counts, 1, "AABB tests") == 90);
+    json_decref(ratios);
+    json_decref(counts);
+}
+
 static void quality__errors__by_region_of_the_reference_and_hits_only(void **state)
 {
     (void)state;
@@ -279,19 +321,77 @@ static void models__median_and_worst__by_size(void **state)
     json_decref(table);
 }
 
+/* Two tiles of one pixel: one simple and without error, one complex, whose error falls as its samples grow. */
+static mlrta_adaptive_scene two_tiles(mlrta_adaptive_tile tiles[2], unsigned char rates[2])
+{
+    static const double complexity[2] = {1, 100}, error[2] = {0, 16};
+    for (int i = 0; i < 2; i++) {
+        tiles[i].complexity = complexity[i];
+        for (int rate = 0; rate < MLRTA_RATES; rate++) {
+            tiles[i].rays[rate] = mlrta_rate_samples[rate];
+            tiles[i].cycles[rate] = 10 * mlrta_rate_samples[rate];
+            tiles[i].error[rate] = error[i] / mlrta_rate_samples[rate];
+        }
+    }
+    return (mlrta_adaptive_scene){"two", 2, tiles, rates, 2};
+}
+
+static void adaptive__simple_and_complex_tile__samples_where_the_error_is(void **state)
+{
+    mlrta_adaptive_tile tiles[2];
+    unsigned char rates[2];
+    const mlrta_adaptive_scene scene = two_tiles(tiles, rates);
+    (void)state;
+    for (int way = MLRTA_BY_ROOT; way < MLRTA_WAYS; way++) {
+        const mlrta_sampling s = mlrta_choose_samples(&scene, (mlrta_way)way, 1);
+        assert_true(rates[0] == 0 && rates[1] == 1);
+        assert_true(s.rays == (0.25 + 1) / 2 && s.cycles == 10 * s.rays && fabs(s.rmse - sqrt(16.0 / 6)) < 1e-12);
+        assert_true(fabs(s.by_chance - sqrt((64.0 / 2 + 16.0 / 2) / 6)) < 1e-12 && s.share[0] == 0.5 && s.share[1] == 0.5);
+    }
+    tiles[0].complexity = 100; /* the measure says nothing: only the error does */
+    mlrta_choose_samples(&scene, MLRTA_BY_STEPS, 1);
+    assert_true(rates[0] == 1 && rates[1] == 1);
+    mlrta_choose_samples(&scene, MLRTA_BY_ERROR, 1);
+    assert_true(rates[0] == 0 && rates[1] == 1);
+}
+
+static void adaptive__table_and_plot__saved_rays_and_published(void **state)
+{
+    mlrta_adaptive_tile tiles[2];
+    unsigned char rates[2];
+    mlrta_adaptive_plot plot;
+    const mlrta_adaptive_scene scene = two_tiles(tiles, rates);
+    json_t *t = json_of(mlrta_adaptive_table(&scene, 1, "caption"));
+    (void)state;
+    assert_int_equal(json_array_size(json_object_get(t, "rows")), 2 * MLRTA_WAYS);
+    assert_true(number(t, 0, "rays") == 1 && json_is_null(cell(t, 0, "rays saved")));
+    assert_true(number(t, 1, "rays saved") == 37.5 && number(t, 1, "cycles saved") == 37.5 && number(t, 1, "tiles with 1/4") == 50);
+    assert_true(number(t, MLRTA_WAYS, "rays") == 4 && fabs(number(t, MLRTA_WAYS + 2, "rays saved") - 100 * (1 - 4.25 / 8)) < 0.051);
+    assert_non_null(strstr(json_string_value(json_array_get(json_object_get(t, "notes"), 0)), "50%"));
+    json_decref(t);
+    mlrta_adaptive_plot_of(&scene, &plot);
+    assert_true(plot.series[0].count == MLRTA_RATES && plot.rays[0][3] == 16 && plot.rays[1][0] == 0.25);
+    for (int i = 1; i < MLRTA_ADAPTIVE_POINTS; i++)
+        assert_true(plot.rays[1][i] >= plot.rays[1][i - 1] && plot.rmse[2][i] <= plot.rmse[2][i - 1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paper__rows_of_table_1__whole_and_doubts_named),
         cmocka_unit_test(prediction__known_costs__known_cycles),
+        cmocka_unit_test(prediction__far_row__the_event_that_makes_it_so),
         cmocka_unit_test(prediction__event_that_did_not_happen__rows_missing_and_said),
         cmocka_unit_test(table1__large_difference__in_words_and_a_small_one_not),
         cmocka_unit_test(paper__rows_of_table_2__doubts_named_and_absent_cells_missing),
         cmocka_unit_test(table2__counts_of_the_paper__its_changes),
         cmocka_unit_test(table2__other_scenes__published_rows_apart),
         cmocka_unit_test(light_size__two_scenes__ratios_and_a_series_for_each),
+        cmocka_unit_test(packet256__one_scene__against_frusta_and_packets),
         cmocka_unit_test(quality__errors__by_region_of_the_reference_and_hits_only),
         cmocka_unit_test(quality__tables_and_points__rows_in_their_order),
+        cmocka_unit_test(adaptive__simple_and_complex_tile__samples_where_the_error_is),
+        cmocka_unit_test(adaptive__table_and_plot__saved_rays_and_published),
         cmocka_unit_test(models__median_and_worst__by_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -75,7 +75,7 @@ static void file__written_and_read__same_bytes(void **state)
         kdtree *tree = build(&scenes[i], &options), *again = NULL;
         base_error err = {0};
         uint64_t hash = kdtree_check_hash(tree);
-        assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, NULL), BASE_OK);
+        assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, false, NULL), BASE_OK);
         assert_int_equal(kdtree_write(tree, &scenes[i], &options, path, &err), BASE_OK);
         options.jobs = 3;
         if (kdtree_read(path, &scenes[i], &options, &again, &err) != BASE_OK)
@@ -185,7 +185,7 @@ static void file__forged__refused_or_sound(void **state)
         if (kdtree_read(path, &s, &options, &tree, NULL) == BASE_OK) {
             static const float origin[][3] = {{0.1f, 0.2f, 0.3f}};
             kdtree_check(&s, tree, &options);
-            assert_int_equal(kdtree_mark_occluders(tree, origin, 1, NULL), BASE_OK);
+            assert_int_equal(kdtree_mark_occluders(tree, origin, 1, false, NULL), BASE_OK);
         } else
             refused++;
         kdtree_destroy(&tree);

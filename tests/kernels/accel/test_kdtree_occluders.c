@@ -110,6 +110,7 @@ static double winding(const shapes *s, size_t shape, const double point[3])
 typedef struct check {
     const shapes *shapes;
     const bool *closed; /* by shape; closed ones are components 0, 1, ... */
+    bool oriented;      /* all of those are */
     base_random random;
     size_t inside;
 } check;
@@ -130,10 +131,17 @@ static void check_leaf(void *user, const kdtree *tree, const kdtree_leaf *leaf)
     for (size_t shape = 0; shape < c->shapes->count; shape++) {
         if (!c->closed[shape])
             continue;
-        bool inside = fabs(winding(c->shapes, shape, point)) > 0.5, listed = false;
-        for (uint32_t k = 0; k < set->count; k++)
-            listed |= tree->members[set->first + k] == component;
-        assert_int_equal(listed, inside);
+        double turns = winding(c->shapes, shape, point);
+        bool listed = false;
+        for (uint32_t k = 0; k < set->count; k++) {
+            uint32_t member = tree->members[set->first + k];
+            listed |= member >> 1 == component;
+            if (member >> 1 == component && c->oriented)
+                assert_int_equal(member & KDTREE_OUTWARD, turns > 0.5 ? KDTREE_OUTWARD : 0);
+            if (!c->oriented)
+                assert_int_equal(member & KDTREE_OUTWARD, 0);
+        }
+        assert_int_equal(listed, fabs(turns) > 0.5);
         found += listed;
         component++;
     }
@@ -142,11 +150,11 @@ static void check_leaf(void *user, const kdtree *tree, const kdtree_leaf *leaf)
 }
 
 /* Build, and compare every empty leaf; the tree is the caller's. */
-static kdtree *check_shapes(const shapes *s, const bool *closed, size_t *inside)
+static kdtree *check_shapes(const shapes *s, const bool *closed, bool oriented, size_t *inside)
 {
     kdtree_options options = kdtree_options_default();
     kdtree *tree = NULL;
-    check c = {.shapes = s, .closed = closed, .random = {5}};
+    check c = {.shapes = s, .closed = closed, .oriented = oriented, .random = {5}};
     options.min_area = 0;
     options.jobs = 2;
     assert_int_equal(kdtree_build(&s->scene, &options, &tree, NULL), BASE_OK);
@@ -176,7 +184,7 @@ static void occluders__balls_and_boxes__sets_of_the_solid_angles(void **state)
     add_ball(&s, beside, 0.75f, 16);
     add_box(&s, -4.0f, -3.0f, -3.0f, -2.0f, 2.0f, 1.0f);
     add_ball(&s, over, 1.0f, 16); /* runs through the first */
-    kdtree *tree = check_shapes(&s, closed, &inside);
+    kdtree *tree = check_shapes(&s, closed, true, &inside);
     assert_in_range(inside, 100, tree->empty_count - 100);
     kdtree_destroy(&tree);
     soup_free(&s.scene);
@@ -192,15 +200,15 @@ static void occluders__nested__both_or_one(void **state)
     (void)state;
     add_ball(&s, at, 2.0f, 16);
     add_ball(&s, at, 1.0f, 16);
-    kdtree *tree = check_shapes(&s, closed, &inside);
+    kdtree *tree = check_shapes(&s, closed, true, &inside);
     assert_int_equal(tree->set_count, 3);
-    assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, NULL), BASE_OK);
+    assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, false, NULL), BASE_OK);
     assert_int_equal(marked(tree), tree->enclosed_count);
-    assert_int_equal(kdtree_mark_occluders(tree, &origins[2], 1, NULL), BASE_OK); /* outside of the scene */
+    assert_int_equal(kdtree_mark_occluders(tree, &origins[2], 1, false, NULL), BASE_OK); /* outside of the scene */
     assert_int_equal(marked(tree), tree->enclosed_count);
-    assert_int_equal(kdtree_mark_occluders(tree, origins, 1, NULL), BASE_OK); /* between the two: only the inner one occludes */
+    assert_int_equal(kdtree_mark_occluders(tree, origins, 1, false, NULL), BASE_OK); /* between the two: only the inner one occludes */
     assert_in_range(marked(tree), 1, tree->enclosed_count - 1);
-    assert_int_equal(kdtree_mark_occluders(tree, origins, 2, NULL), BASE_OK); /* in both */
+    assert_int_equal(kdtree_mark_occluders(tree, origins, 2, false, NULL), BASE_OK); /* in both */
     assert_int_equal(marked(tree), 0);
     kdtree_destroy(&tree);
     soup_free(&s.scene);
@@ -214,9 +222,66 @@ static void occluders__origin_on_the_surface__counts_as_inside(void **state)
     size_t inside;
     (void)state;
     add_box(&s, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f);
-    kdtree *tree = check_shapes(&s, closed, &inside);
+    kdtree *tree = check_shapes(&s, closed, true, &inside);
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(kdtree_mark_occluders(tree, &origins[i], 1, NULL), BASE_OK);
+        assert_int_equal(kdtree_mark_occluders(tree, &origins[i], 1, false, NULL), BASE_OK);
+        assert_int_equal(marked(tree), 0);
+    }
+    kdtree_destroy(&tree);
+    soup_free(&s.scene);
+}
+
+static void turn(shapes *s, size_t shape)
+{
+    for (size_t i = s->first[shape]; i < s->first[shape + 1] && i < s->scene.triangle_count; i++) {
+        float (*v)[3] = s->scene.triangles[i].v, swapped[3];
+        memcpy(swapped, v[1], sizeof swapped);
+        memcpy(v[1], v[2], sizeof swapped);
+        memcpy(v[2], swapped, sizeof swapped);
+    }
+}
+
+/* Of back faces that are culled nothing is hit, and what is behind them is seen. */
+static void occluders__fronts_inside__nothing_where_back_faces_are_culled(void **state)
+{
+    static const bool closed[] = {true, true, true};
+    static const float at[3] = {0.5f, 0.5f, 0.5f};
+    shapes s = shapes_create();
+    size_t inside;
+    (void)state;
+    add_box(&s, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f);
+    add_box(&s, 2.0f, 0.0f, 0.0f, 3.0f, 1.0f, 1.0f);
+    add_ball(&s, at, 0.25f, 12);
+    turn(&s, 0);
+    turn(&s, 2);
+    kdtree *tree = check_shapes(&s, closed, true, &inside);
+    assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, false, NULL), BASE_OK);
+    assert_int_equal(marked(tree), tree->enclosed_count);
+    assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, true, NULL), BASE_OK); /* the second box */
+    assert_in_range(marked(tree), 1, tree->enclosed_count - 1);
+    kdtree_destroy(&tree);
+    soup_free(&s.scene);
+}
+
+/* Its edges are used four times: one component, which parity alone would not find its points in. */
+static void occluders__same_ball_twice__wound_twice(void **state)
+{
+    static const float at[3] = {0.0f, 0.0f, 0.0f};
+    static const float origin[1][3] = {{0.0f, 0.1f, 0.0f}};
+    static const bool closed[] = {true};
+    shapes s = shapes_create();
+    size_t inside;
+    (void)state;
+    add_ball(&s, at, 1.0f, 12);
+    add_ball(&s, at, 1.0f, 12);
+    s.count = 1;
+    s.first[1] = ROOM;
+    kdtree *tree = check_shapes(&s, closed, true, &inside);
+    assert_true(inside > 20);
+    for (int cull = 0; cull < 2; cull++) {
+        assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, cull, NULL), BASE_OK);
+        assert_int_equal(marked(tree), tree->enclosed_count);
+        assert_int_equal(kdtree_mark_occluders(tree, origin, 1, cull, NULL), BASE_OK);
         assert_int_equal(marked(tree), 0);
     }
     kdtree_destroy(&tree);
@@ -233,15 +298,19 @@ static void occluders__hole_or_turned_triangle__open_or_closed(void **state)
     add_ball(&s, at, 1.0f, 12);
     scene_triangle hole = s.scene.triangles[50];
     s.scene.triangles[50] = s.scene.triangles[--s.scene.triangle_count];
-    kdtree *tree = check_shapes(&s, open, &inside);
+    kdtree *tree = check_shapes(&s, open, true, &inside);
     assert_int_equal(inside, 0);
     kdtree_destroy(&tree);
     s.scene.triangles[s.scene.triangle_count] = hole; /* closed again, one triangle turned: parity does not mind */
     memcpy(s.scene.triangles[s.scene.triangle_count].v[0], hole.v[1], sizeof hole.v[0]);
     memcpy(s.scene.triangles[s.scene.triangle_count++].v[1], hole.v[0], sizeof hole.v[0]);
     static const bool closed[] = {true};
-    tree = check_shapes(&s, closed, &inside);
+    tree = check_shapes(&s, closed, false, &inside);
     assert_true(inside > 20);
+    assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, false, NULL), BASE_OK);
+    assert_int_equal(marked(tree), tree->enclosed_count);
+    assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, true, NULL), BASE_OK); /* culled, the turned triangle is a hole */
+    assert_int_equal(marked(tree), 0);
     kdtree_destroy(&tree);
     soup_free(&s.scene);
 }
@@ -257,7 +326,7 @@ static void occluders__sheet_on_a_box__only_its_component_is_open(void **state)
     begin_shape(&s);
     add(&s, a, b, c);
     add_box(&s, 1.0f, -1.0f, -1.0f, 2.0f, 0.0f, 0.0f); /* shares a vertex */
-    kdtree *tree = check_shapes(&s, first_open, &inside);
+    kdtree *tree = check_shapes(&s, first_open, true, &inside);
     assert_true(inside > 0);
     kdtree_destroy(&tree);
     soup_free(&s.scene);
@@ -276,7 +345,7 @@ static void occluders__switched_off__no_components(void **state)
     assert_int_equal(tree->enclosed_count, 0);
     for (size_t i = 0; i < tree->record_count; i++)
         assert_true(tree->components[i] == KDTREE_OPEN);
-    assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, NULL), BASE_OK);
+    assert_int_equal(kdtree_mark_occluders(tree, NULL, 0, false, NULL), BASE_OK);
     assert_int_equal(marked(tree), 0);
     kdtree_destroy(&tree);
     soup_free(&s.scene);
@@ -288,6 +357,8 @@ int main(void)
         cmocka_unit_test(occluders__balls_and_boxes__sets_of_the_solid_angles),
         cmocka_unit_test(occluders__nested__both_or_one),
         cmocka_unit_test(occluders__origin_on_the_surface__counts_as_inside),
+        cmocka_unit_test(occluders__fronts_inside__nothing_where_back_faces_are_culled),
+        cmocka_unit_test(occluders__same_ball_twice__wound_twice),
         cmocka_unit_test(occluders__hole_or_turned_triangle__open_or_closed),
         cmocka_unit_test(occluders__sheet_on_a_box__only_its_component_is_open),
         cmocka_unit_test(occluders__switched_off__no_components),

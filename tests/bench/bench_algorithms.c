@@ -1,0 +1,228 @@
+/* The algorithms for primary rays beside each other, on the same rays: host speed, simulated cycles, and what their trees cost.
+ *
+ *   bench_algorithms [--size N] [--repeat N] [SCENE...]
+ *
+ * A SCENE is what scene_open takes (default builtin:rooms-804, hall-60k and conference-282k), the image N x N pixels (default 512). One host
+ * thread. All kernels must hit the same, bit for bit, or the benchmark fails. Times are of the processor: of the native kernels, taking
+ * turns, the median of --repeat runs (default 5); of a tree's building, once. Cycles are those of the core model, machine larrabee. Peak
+ * memory is that of a process that opens the scene, builds the tree and traces the image natively. Rows of CSV on stdout; lines of
+ * '#' name the compiler and the CPU.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cli/clock.h"
+#include "cli/run.h"
+#include "lrbni/ctx.h"
+#include "tests/bench/measure.h"
+
+enum { KERNELS = 4 };
+static const char *const kernel_names[KERNELS] = {"packet16-primary", "mft-primary", "kd16-primary", "mlrta-primary"};
+
+typedef struct bench_options {
+    unsigned size;
+    int repeat;
+} bench_options;
+
+/* What a process of its own finds out. */
+typedef struct tree_cost {
+    double build_seconds;
+    size_t bytes, peak_bytes;
+} tree_cost;
+
+/* One kernel on the scene. */
+typedef struct bench {
+    run_result native; /* with the tree and the job */
+    lrb_ctx *ctx;
+    tree_cost tree;
+    double seconds[MEASURE_MAX_RUNS];
+    double cycles;
+} bench;
+
+static int fail(const base_error *err)
+{
+    fprintf(stderr, "bench_algorithms: error: %s: %s\n", err->what, err->why);
+    return 1;
+}
+
+static base_status run(const scene *s, const sim_machine *machine, int kernel, run_model model, unsigned size, run_result *out, base_error *err)
+{
+    const kernel_info *info = kernel_find(kernel_names[kernel]);
+    const run_options options = {.kernel = info, .params = info->defaults, .width = size, .height = size, .model = model, .jobs = 1};
+    return run_kernel(s, machine, &options, out, err);
+}
+
+/* Bytes that a traversal reads. */
+static size_t tree_bytes(const run_result *r)
+{
+    const kdtree *k = r->kdtree;
+    if (!k)
+        return r->tree->node_count * sizeof *r->tree->nodes + r->tree->record_count * sizeof *r->tree->records;
+    return k->node_count * sizeof *k->nodes + k->list_count * sizeof *k->lists + k->record_count * sizeof *k->records;
+}
+
+/* In the child: open, build, trace; the cost goes into the pipe. */
+static int spend(const char *spec, const sim_machine *machine, int kernel, unsigned size, int pipe_end)
+{
+    scene *s = NULL;
+    run_result r = {0};
+    base_error err = {0};
+    tree_cost cost = {0};
+    base_status status = scene_open(spec, &s, &err);
+    const double start = clock_processor_seconds();
+    if (status == BASE_OK)
+        status = run(s, machine, kernel, RUN_NATIVE, size, &r, &err);
+    if (status != BASE_OK)
+        return fail(&err);
+    cost.build_seconds = clock_processor_seconds() - start - r.processor_seconds;
+    cost.bytes = tree_bytes(&r);
+    const int whole = write(pipe_end, &cost, sizeof cost) == (ssize_t)sizeof cost;
+    run_result_destroy(&r);
+    scene_destroy(&s);
+    return !whole;
+}
+
+/* A tree's cost, found by a process of its own, so that nobody else's memory counts; false if it failed. */
+static bool measure_tree(const char *spec, const sim_machine *machine, int kernel, unsigned size, tree_cost *out)
+{
+    int ends[2], state = 1;
+    struct rusage usage;
+    if (pipe(ends) != 0)
+        return false;
+    fflush(stdout);
+    const pid_t child = fork();
+    if (child == 0) {
+        close(ends[0]);
+        _exit(spend(spec, machine, kernel, size, ends[1]));
+    }
+    close(ends[1]);
+    const bool whole = child > 0 && read(ends[0], out, sizeof *out) == (ssize_t)sizeof *out;
+    close(ends[0]);
+    if (child < 0 || wait4(child, &state, 0, &usage) != child || !WIFEXITED(state) || WEXITSTATUS(state) != 0 || !whole)
+        return false;
+    out->peak_bytes = (size_t)usage.ru_maxrss * 1024;
+    return true;
+}
+
+static double trace_once(bench *b)
+{
+    const kernel_job *job = b->native.job;
+    kernel_counts n = {{0}};
+    const double start = clock_processor_seconds();
+    for (uint32_t tile = 0; tile < kernel_job_tiles(job); tile++) {
+        lrb_ctx_begin(b->ctx);
+        b->native.options.kernel->tile[LRB_NATIVE](b->ctx, job, tile, &n);
+        lrb_ctx_end(b->ctx);
+    }
+    return clock_processor_seconds() - start;
+}
+
+static base_status simulate(const scene *s, const sim_machine *machine, int kernel, unsigned size, bench *b, base_error *err)
+{
+    run_result r = {0};
+    base_status status = run(s, machine, kernel, RUN_CORE, size, &r, err);
+    b->cycles = (double)r.cycles;
+    run_result_destroy(&r);
+    return status;
+}
+
+static bool same_frames(const bench *a, const bench *b)
+{
+    const kernel_job *job = a->native.job;
+    return memcmp(job->frame_host, b->native.job->frame_host, (size_t)job->tiles_x * job->tiles_y * sizeof *job->frame_host) == 0;
+}
+
+static void print_row(const scene *s, const bench_options *o, const bench *b)
+{
+    const double rays = (double)o->size * o->size, seconds = measure_median(b->seconds, o->repeat);
+    printf("algorithms/%s/%s,%u,%.6f,%.0f,%.0f,%.2f,%.3f,%zu,%zu\n", b->native.options.kernel->name, s->name, o->size, seconds, rays / seconds,
+           b->cycles, b->cycles / rays, b->tree.build_seconds, b->tree.bytes, b->tree.peak_bytes);
+    fflush(stdout);
+}
+
+static base_status measure_kernels(const scene *s, const sim_machine *machine, const bench_options *o, bench b[KERNELS], base_error *err)
+{
+    base_status status = BASE_OK;
+    for (int k = 0; status == BASE_OK && k < KERNELS; k++) {
+        status = run(s, machine, k, RUN_NATIVE, o->size, &b[k].native, err);
+        if (status == BASE_OK)
+            status = lrb_ctx_create(NULL, NULL, &b[k].ctx, err);
+        if (status == BASE_OK && !same_frames(&b[0], &b[k]))
+            status = base_fail(err, BASE_ERR_INPUT, kernel_names[k], "hits on %s are not those of %s", s->name, kernel_names[0]);
+    }
+    for (int i = 0; status == BASE_OK && i < o->repeat; i++)
+        for (int k = 0; k < KERNELS; k++)
+            b[k].seconds[i] = trace_once(&b[k]);
+    for (int k = 0; status == BASE_OK && k < KERNELS; k++) {
+        status = simulate(s, machine, k, o->size, &b[k], err);
+        if (status == BASE_OK)
+            print_row(s, o, &b[k]);
+    }
+    return status;
+}
+
+static int bench_scene(const char *spec, const sim_machine *machine, const bench_options *o)
+{
+    bench b[KERNELS] = {0};
+    scene *s = NULL;
+    base_error err = {0};
+    for (int k = 0; k < KERNELS; k++)
+        if (!measure_tree(spec, machine, k, o->size, &b[k].tree))
+            return 1; /* the child has said why */
+    base_status status = scene_open(spec, &s, &err);
+    if (status == BASE_OK)
+        status = measure_kernels(s, machine, o, b, &err);
+    for (int k = 0; k < KERNELS; k++) {
+        lrb_ctx_destroy(&b[k].ctx);
+        run_result_destroy(&b[k].native);
+    }
+    scene_destroy(&s);
+    return status == BASE_OK ? 0 : fail(&err);
+}
+
+/* Index of the first scene among the arguments; 0 if an option is wrong. */
+static int parse(int argc, char **argv, bench_options *o)
+{
+    int i = 1;
+    for (; i < argc && argv[i][0] == '-'; i += 2) {
+        char *end = NULL;
+        const long value = i + 1 < argc ? strtol(argv[i + 1], &end, 10) : 0;
+        const bool number = end && end != argv[i + 1] && !*end;
+        if (number && strcmp(argv[i], "--size") == 0 && value >= 1 && value <= (long)JOB_MAX_SIZE)
+            o->size = (unsigned)value;
+        else if (number && strcmp(argv[i], "--repeat") == 0 && value >= 1 && value <= MEASURE_MAX_RUNS)
+            o->repeat = (int)value;
+        else
+            return 0;
+    }
+    return i;
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const scenes[] = {"builtin:rooms-804", "builtin:hall-60k", "builtin:conference-282k"};
+    bench_options o = {.size = 512, .repeat = 5};
+    sim_machine *machine = NULL;
+    base_error err = {0};
+    const int first = parse(argc, argv, &o);
+    int failed = 0;
+    if (first == 0) {
+        fprintf(stderr, "bench_algorithms: error: usage: bench_algorithms [--size 1..%u] [--repeat 1..%d] [SCENE...]\n", JOB_MAX_SIZE, MEASURE_MAX_RUNS);
+        return 2;
+    }
+    if (sim_machine_load("larrabee", &machine, &err) != BASE_OK)
+        return fail(&err);
+    measure_print_head();
+    printf("# machine %s; median of %d native runs in turn, one thread\n", machine->name, o.repeat);
+    printf("row,size,native_seconds,native_rays_per_s,core_cycles,cycles_per_ray,build_cpu_seconds,tree_bytes,peak_bytes\n");
+    for (size_t i = 0; first == argc && i < sizeof scenes / sizeof *scenes; i++)
+        failed |= bench_scene(scenes[i], machine, &o);
+    for (int i = first; i < argc; i++)
+        failed |= bench_scene(argv[i], machine, &o);
+    sim_machine_destroy(&machine);
+    return failed;
+}
