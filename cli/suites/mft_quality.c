@@ -75,6 +75,7 @@ static base_status run_native(const suite *s, const suite_scene *on, unsigned do
     options.width <<= doublings;
     options.height <<= doublings;
     options.params.samples = samples;
+    options.params.filter = 1;
     options.params.interleaved = interleaved;
     return run_kernel(on->scene, s->options->machine, &options, result, err);
 }
@@ -161,6 +162,7 @@ static base_status measure_way(const suite *s, const suite_scene *on, measured *
     run_result result = {0};
     run_options options = mft_run_options(s, MFT_S_FRUSTA);
     options.params.samples = samples;
+    options.params.filter = 1;
     options.params.interleaved = interleaved;
     base_status status = run_kernel(on->scene, s->options->machine, &options, &result, err);
     for (int filtered = 0; status == BASE_OK && filtered < 2; filtered++) {

@@ -1,5 +1,7 @@
 #include "cli/suites/mft_runs.h"
 
+#include <math.h>
+
 const char *const mft_suite_scenes[] = {"builtin:creature-69k", "builtin:fern-212k", "builtin:hall-60k", "builtin:forest-174k", NULL};
 
 const char *mft_kernel(mft_algorithm algorithm)
@@ -20,6 +22,8 @@ run_options mft_kernel_options(const suite *s, const char *kernel)
 {
     run_options options = suite_run_options(s, kernel_find(kernel), RUN_CORE);
     options.params.cull_backface = 1;
+    if (s->options->error > 0)
+        options.params.filter = 0;
     return options;
 }
 
@@ -48,7 +52,7 @@ mft_row mft_row_of(const run_result *result, const char *scene_name, mft_algorit
         .value = {[MFT_TRIS] = (double)n[KERNEL_tri_accesses], [MFT_CULLED] = (double)n[KERNEL_tri_after_culling],
                   [MFT_AABB] = (double)n[KERNEL_aabb_tests], [MFT_ISECT] = (double)n[KERNEL_isect_tests], [MFT_CYCLES] = (double)mft_cycles(result)},
         .phase = {(double)phase[KERNEL_PHASE_SETUP], (double)phase[KERNEL_PHASE_TRAVERSAL], (double)phase[KERNEL_PHASE_CULLING],
-                  (double)phase[KERNEL_PHASE_INTERSECTION], (double)phase[KERNEL_PHASE_SHADING], (double)phase[KERNEL_PHASE_FILTER]},
+                  (double)phase[KERNEL_PHASE_INTERSECTION], (double)phase[KERNEL_PHASE_SHADING], result->options.params.filter ? (double)phase[KERNEL_PHASE_FILTER] : (double)NAN},
         .memory = (double)(core->l2 + core->memory + core->misses + core->prefetches) / (double)result->core.cycles,
         .half_width = result->estimate.half_width_95,
     };

@@ -14,7 +14,8 @@ const char *mft_kernel(mft_algorithm algorithm);
 /** The built-in scenes that stand in for the paper's, for suite_info.scenes. */
 extern const char *const mft_suite_scenes[];
 
-/** Options of a kernel's run: the core model, back faces culled, as the paper did (MFT 5). */
+/** Options of a kernel's run: the core model, back faces culled, as the paper did (MFT 5). Of a sampled run no filter: a sample
+ * knows the cycles of phases too badly to take one off. */
 run_options mft_kernel_options(const suite *s, const char *kernel);
 
 /** The same of an algorithm's kernel. */
