@@ -1,7 +1,6 @@
 /* Suite stability: kernels on the hard cases of float arithmetic, judged ray by ray in exact arithmetic (docs/accuracy.md). */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cli/suite.h"
 #include "cli/suites/stability_curves.h"
@@ -61,29 +60,16 @@ static base_status try_whole_scenes(suite *s, const stability_kernels *kernels, 
     return suite_each_scene(s, try_whole_scene, &all, err);
 }
 
-/* The kernels asked for, or all. */
-static void choose_kernels(const suite_options *o, stability_kernels *out)
-{
-    size_t count;
-    const kernel_info *all = kernel_list(&count);
-    for (size_t i = 0; i < count && out->count < STABILITY_MAX_KERNELS; i++) {
-        bool wanted = o->kernels.count == 0;
-        for (size_t k = 0; k < o->kernels.count; k++)
-            wanted |= strcmp(o->kernels.items[k], all[i].name) == 0;
-        if (wanted)
-            out->list[out->count++] = &all[i];
-    }
-}
-
 static base_status measure(suite *s, base_error *err)
 {
-    stability_kernels kernels = {0};
+    stability_kernels kernels = {0}, variants = {0};
     report_table *whole = NULL;
-    choose_kernels(s->options, &kernels);
+    stability_kernels_choose(&s->options->kernels, false, &kernels);
+    stability_kernels_choose(&s->options->kernels, true, &variants);
     report_page_add_heading(s->page, 1, "Tables");
     base_status status = try_whole_scenes(s, &kernels, &whole, err);
     if (status == BASE_OK)
-        status = stability_add_hard_cases(s, &kernels, STABILITY_FRAMES, err);
+        status = stability_add_hard_cases(s, &variants, STABILITY_FRAMES, err);
     if (status == BASE_OK) {
         status = suite_add_table(s, "-scenes", whole, err);
         whole = NULL;

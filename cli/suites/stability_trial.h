@@ -2,15 +2,8 @@
 #ifndef CLI_SUITES_STABILITY_TRIAL_H
 #define CLI_SUITES_STABILITY_TRIAL_H
 
+#include "cli/suites/stability_kernels.h"
 #include "cli/suites/stability_tally.h"
-
-enum { STABILITY_MAX_KERNELS = 64 };
-
-/* The kernels that a report is about. */
-typedef struct stability_kernels {
-    const kernel_info *list[STABILITY_MAX_KERNELS];
-    size_t count;
-} stability_kernels;
 
 /* What to try. */
 typedef struct stability_input {
