@@ -22,7 +22,8 @@ static spilled_tile spill(const unsigned registers[SIM_FILES], const lrb_event *
     assert_int_equal(sim_registers_end(r, NULL), BASE_OK);
     const sim_spill *spills = sim_registers_spills(r, &tile.spills);
     assert_int_equal(sim_spill_events(events, count, spills, tile.spills, &tile.events, &tile.count, NULL), BASE_OK);
-    memcpy(tile.first, spills, (tile.spills < 600 ? tile.spills : 600) * sizeof *spills);
+    for (size_t i = 0; i < tile.spills && i < 600; i++)
+        tile.first[i] = spills[i];
     sim_registers_destroy(&r);
     return tile;
 }
