@@ -23,11 +23,6 @@
 enum { KERNELS = 4 };
 static const char *const kernel_names[KERNELS] = {"packet16-primary", "mft-primary", "kd16-primary", "mlrta-primary"};
 
-typedef struct bench_options {
-    unsigned size;
-    int repeat;
-} bench_options;
-
 /* What a process of its own finds out. */
 typedef struct tree_cost {
     double build_seconds;
@@ -136,7 +131,7 @@ static bool same_frames(const bench *a, const bench *b)
     return memcmp(job->frame_host, b->native.job->frame_host, (size_t)job->tiles_x * job->tiles_y * sizeof *job->frame_host) == 0;
 }
 
-static void print_row(const scene *s, const bench_options *o, const bench *b)
+static void print_row(const scene *s, const measure_picture *o, const bench *b)
 {
     const double rays = (double)o->size * o->size, seconds = measure_median(b->seconds, o->repeat);
     printf("algorithms/%s/%s,%u,%.6f,%.0f,%.0f,%.2f,%.3f,%zu,%zu\n", b->native.options.kernel->name, s->name, o->size, seconds, rays / seconds,
@@ -144,7 +139,7 @@ static void print_row(const scene *s, const bench_options *o, const bench *b)
     fflush(stdout);
 }
 
-static base_status measure_kernels(const scene *s, const sim_machine *machine, const bench_options *o, bench b[KERNELS], base_error *err)
+static base_status measure_kernels(const scene *s, const sim_machine *machine, const measure_picture *o, bench b[KERNELS], base_error *err)
 {
     base_status status = BASE_OK;
     for (int k = 0; status == BASE_OK && k < KERNELS; k++) {
@@ -165,7 +160,7 @@ static base_status measure_kernels(const scene *s, const sim_machine *machine, c
     return status;
 }
 
-static int bench_scene(const char *spec, const sim_machine *machine, const bench_options *o)
+static int bench_scene(const char *spec, const sim_machine *machine, const measure_picture *o)
 {
     bench b[KERNELS] = {0};
     scene *s = NULL;
@@ -184,31 +179,13 @@ static int bench_scene(const char *spec, const sim_machine *machine, const bench
     return status == BASE_OK ? 0 : fail(&err);
 }
 
-/* Index of the first scene among the arguments; 0 if an option is wrong. */
-static int parse(int argc, char **argv, bench_options *o)
-{
-    int i = 1;
-    for (; i < argc && argv[i][0] == '-'; i += 2) {
-        char *end = NULL;
-        const long value = i + 1 < argc ? strtol(argv[i + 1], &end, 10) : 0;
-        const bool number = end && end != argv[i + 1] && !*end;
-        if (number && strcmp(argv[i], "--size") == 0 && value >= 1 && value <= (long)JOB_MAX_SIZE)
-            o->size = (unsigned)value;
-        else if (number && strcmp(argv[i], "--repeat") == 0 && value >= 1 && value <= MEASURE_MAX_RUNS)
-            o->repeat = (int)value;
-        else
-            return 0;
-    }
-    return i;
-}
-
 int main(int argc, char **argv)
 {
     static const char *const scenes[] = {"builtin:rooms-804", "builtin:hall-60k", "builtin:conference-282k"};
-    bench_options o = {.size = 512, .repeat = 5};
+    measure_picture o = {.size = 512, .repeat = 5};
     sim_machine *machine = NULL;
     base_error err = {0};
-    const int first = parse(argc, argv, &o);
+    const int first = measure_picture_parse(argc, argv, JOB_MAX_SIZE, &o);
     int failed = 0;
     if (first == 0) {
         fprintf(stderr, "bench_algorithms: error: usage: bench_algorithms [--size 1..%u] [--repeat 1..%d] [SCENE...]\n", JOB_MAX_SIZE, MEASURE_MAX_RUNS);

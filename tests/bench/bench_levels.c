@@ -29,11 +29,6 @@ static const char *const way_names[WAYS] = {"native", "count", "record", "record
 static const double target_count_ratio = 1.5, target_count_vector_ops = 500e6, target_issue_events = 150e6,
                     target_core_events = 80e6;
 
-typedef struct bench_options {
-    unsigned size;
-    int repeat;
-} bench_options;
-
 /* One kernel on one scene. */
 typedef struct bench {
     const kernel_info *kernel;
@@ -265,7 +260,7 @@ static void destroy(bench *b)
 
 /* One kernel: build its tree, time all ways, print. */
 static base_status bench_kernel(const kernel_info *kernel, const scene *s, const sim_machine *machine, embree_packets *embree[2],
-                                const bench_options *o, base_error *err)
+                                const measure_picture *o, base_error *err)
 {
     bench b = {.kernel = kernel, .scene_name = s->name, .machine = machine, .embree = {embree[0], embree[1]}, .repeat = o->repeat};
     bvh_options build = bvh_options_default();
@@ -312,7 +307,7 @@ static void create_embree(const scene *s, embree_packets *embree[2])
     }
 }
 
-static int bench_scene(const char *spec, const sim_machine *machine, const bench_options *o)
+static int bench_scene(const char *spec, const sim_machine *machine, const measure_picture *o)
 {
     static const char *const kernels[] = {"packet16-primary", "mft-primary", "packet16-soft", "mft-soft"};
     scene *s = NULL;
@@ -331,30 +326,12 @@ static int bench_scene(const char *spec, const sim_machine *machine, const bench
     return status == BASE_OK ? 0 : fail(&err);
 }
 
-/* Index of the first scene among the arguments; 0 if an option is wrong. */
-static int parse(int argc, char **argv, bench_options *o)
-{
-    int i = 1;
-    for (; i < argc && argv[i][0] == '-'; i += 2) {
-        char *end = NULL;
-        long value = i + 1 < argc ? strtol(argv[i + 1], &end, 10) : 0;
-        bool number = end && end != argv[i + 1] && !*end;
-        if (number && strcmp(argv[i], "--size") == 0 && value >= 1 && value <= (long)JOB_MAX_SIZE)
-            o->size = (unsigned)value;
-        else if (number && strcmp(argv[i], "--repeat") == 0 && value >= 1 && value <= MEASURE_MAX_RUNS)
-            o->repeat = (int)value;
-        else
-            return 0;
-    }
-    return i;
-}
-
 int main(int argc, char **argv)
 {
-    bench_options o = {.size = 1024, .repeat = 5};
+    measure_picture o = {.size = 1024, .repeat = 5};
     sim_machine *machine = NULL;
     base_error err = {0};
-    int failed = 0, first = parse(argc, argv, &o);
+    int failed = 0, first = measure_picture_parse(argc, argv, JOB_MAX_SIZE, &o);
     if (first == 0) {
         fprintf(stderr, "bench_levels: error: usage: bench_levels [--size 1..%u] [--repeat 1..%d] [SCENE...]\n", JOB_MAX_SIZE,
                 MEASURE_MAX_RUNS);

@@ -1,5 +1,6 @@
 #include "tests/bench/measure.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,23 @@ double measure_seconds(void)
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+int measure_picture_parse(int argc, char **argv, unsigned most_size, measure_picture *out)
+{
+    int i = 1;
+    for (; i < argc && argv[i][0] == '-'; i += 2) {
+        char *end = NULL;
+        const long value = i + 1 < argc ? strtol(argv[i + 1], &end, 10) : 0;
+        const bool number = end && end != argv[i + 1] && !*end;
+        if (number && strcmp(argv[i], "--size") == 0 && value >= 1 && value <= (long)most_size)
+            out->size = (unsigned)value;
+        else if (number && strcmp(argv[i], "--repeat") == 0 && value >= 1 && value <= MEASURE_MAX_RUNS)
+            out->repeat = (int)value;
+        else
+            return 0;
+    }
+    return i;
 }
 
 static int compare_doubles(const void *a, const void *b)

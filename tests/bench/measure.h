@@ -1,4 +1,4 @@
-/* What the benchmarks share: the clock, medians, the lines that name the host, and the timing of a build of the BVH. */
+/* What the benchmarks share: the clock, medians, options, the lines that name the host, and the timing of a build of the BVH. */
 #ifndef TESTS_BENCH_MEASURE_H
 #define TESTS_BENCH_MEASURE_H
 
@@ -7,6 +7,15 @@
 #include "scene/scene.h"
 
 #define MEASURE_MAX_RUNS 99
+
+/* What benchmarks of kernels are told: the edge of the picture in pixels, and how many runs. */
+typedef struct measure_picture {
+    unsigned size;
+    int repeat;
+} measure_picture;
+
+/** Read [--size 1..most_size] [--repeat 1..MEASURE_MAX_RUNS]; returns the index of the first argument behind them, 0 if one is wrong. */
+int measure_picture_parse(int argc, char **argv, unsigned most_size, measure_picture *out);
 
 /** Seconds on a clock that only goes forward. */
 double measure_seconds(void);
