@@ -43,7 +43,8 @@ void lrb_ctx_begin(lrb_ctx *c)
     c->free_event = c->events;
 }
 
-void lrb_ctx_flush(lrb_ctx *c)
+/* Hand the batch to the sink. */
+static __attribute__((noinline)) void flush(lrb_ctx *c)
 {
     uint32_t count = (uint32_t)(c->free_event - c->events);
     c->free_event = c->events;
@@ -53,6 +54,59 @@ void lrb_ctx_flush(lrb_ctx *c)
 
 void lrb_ctx_end(lrb_ctx *c)
 {
-    lrb_ctx_flush(c);
+    flush(c);
     lrb_ctx_begin(c);
+}
+
+/* An event has been written at the end of the batch. */
+static inline void put(lrb_ctx *c, lrb_event *e)
+{
+    c->free_event = e + 1;
+    if (__builtin_expect(e + 1 == c->events_end, 0))
+        flush(c);
+}
+
+void lrb_put_marker(lrb_ctx *c, lrb_op_id marker, uint32_t number)
+{
+    lrb_event *e = c->free_event;
+    *e = (lrb_event){.op = (uint16_t)marker, .aux = number};
+    put(c, e);
+}
+
+/* Distance back from event `id` to the event that made a source; 0 if that was long ago, or there is none. */
+static inline uint16_t distance(uint32_t id, uint32_t from)
+{
+    uint32_t d = id - from;
+    return d < LRB_FAR ? (uint16_t)d : 0;
+}
+
+uint32_t lrb_put(lrb_ctx *c, uint64_t what, uint32_t s0, uint32_t s1, uint32_t s2, uint32_t s3)
+{
+    lrb_event *e = c->free_event;
+    uint32_t id = c->next_event;
+    *e = (lrb_event){.op = (uint16_t)(what >> 32), .mask = (uint16_t)(what >> 48), .aux = (uint32_t)what,
+                     .src = {distance(id, s0), distance(id, s1), distance(id, s2), distance(id, s3)}};
+    c->next_event = id + 1;
+    put(c, e);
+    return id;
+}
+
+static void mark_far(lrb_ctx *c, uint32_t source, uint32_t from)
+{
+    if (from && c->next_event - from >= LRB_FAR)
+        lrb_put_marker(c, LRB_OP_far, (c->next_event - from) << 2 | source);
+}
+
+uint32_t lrb_put_far(lrb_ctx *c, uint64_t what, uint32_t s0, uint32_t s1, uint32_t s2, uint32_t s3)
+{
+    mark_far(c, 0, s0), mark_far(c, 1, s1), mark_far(c, 2, s2), mark_far(c, 3, s3);
+    return lrb_put(c, what, s0, s1, s2, s3);
+}
+
+void lrb_at_line(lrb_ctx *c, uint32_t site)
+{
+    if (c->line != site) {
+        c->line = site;
+        lrb_put_marker(c, LRB_OP_line, site);
+    }
 }

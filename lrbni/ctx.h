@@ -57,7 +57,26 @@ void lrb_ctx_begin(lrb_ctx *c);
 /** End a tile: hand the events that are still here to the sink. */
 void lrb_ctx_end(lrb_ctx *c);
 
-/** Hand the batch to the sink; called by the ops when it is full. */
-void lrb_ctx_flush(lrb_ctx *c);
+/* What ops of kernels at LRB_RECORD call. In place, this would make a kernel's code two to four times as long, which compilers
+ * take five times as long for and the core model's time does not gain from (docs/performance.md). */
+
+/**
+ * Put an op's event into the stream.
+ *
+ * @param what  the event's mask, op and aux, from the highest bits down: 16, 16 and 32
+ * @param s0    to s3: the ids of the events that made the sources; 0: none
+ *
+ * Returns the event's id.
+ */
+uint32_t lrb_put(lrb_ctx *c, uint64_t what, uint32_t s0, uint32_t s1, uint32_t s2, uint32_t s3);
+
+/** lrb_put, with a marker before it for each source that is too far back for the event (lrbni/annotate.h). */
+uint32_t lrb_put_far(lrb_ctx *c, uint64_t what, uint32_t s0, uint32_t s1, uint32_t s2, uint32_t s3);
+
+/** What follows is written in that source and line (LRB_SITE): a marker, if that is news (lrbni/annotate.h). */
+void lrb_at_line(lrb_ctx *c, uint32_t site);
+
+/** Put a marker into the stream. */
+void lrb_put_marker(lrb_ctx *c, lrb_op_id marker, uint32_t number);
 
 #endif

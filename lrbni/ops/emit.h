@@ -6,45 +6,13 @@
 
 #include "lrbni/types.h"
 
-/* Distance back from event `id` to the event that made a source; 0 if that was long ago, or there is none. */
-LRB_INLINE uint16_t lrb_distance(uint32_t id, uint32_t from)
-{
-    if (__builtin_constant_p(from) && from == 0)
-        return 0;
-    uint32_t distance = id - from;
-    return distance < LRB_FAR ? (uint16_t)distance : 0;
-}
-
-#if LRB_LEVEL == LRB_RECORD
-/* An event has been written at the end of the batch. */
-LRB_INLINE void lrb_put(lrb_ctx *c, lrb_event *e)
-{
-    c->free_event = e + 1;
-    if (__builtin_expect(e + 1 == c->events_end, 0))
-        lrb_ctx_flush(c);
-}
-#endif
-
 /* Put a marker into the stream: LRB_RECORD only. */
 LRB_INLINE void lrb_mark(lrb_ctx *c, lrb_op_id marker, uint32_t number)
 {
 #if LRB_LEVEL == LRB_RECORD
-    lrb_event *e = c->free_event;
-    *e = (lrb_event){.op = (uint16_t)marker, .aux = number};
-    lrb_put(c, e);
+    lrb_put_marker(c, marker, number);
 #else
     (void)c, (void)marker, (void)number;
-#endif
-}
-
-/* A source that is too far back for the event of the next op has a marker of its own. */
-LRB_INLINE void lrb_mark_far(lrb_ctx *c, uint32_t source, uint32_t from)
-{
-#if LRB_LEVEL == LRB_RECORD && defined(LRB_ANNOTATED)
-    if (from && c->next_event - from >= LRB_FAR)
-        lrb_mark(c, LRB_OP_far, (c->next_event - from) << 2 | source);
-#else
-    (void)c, (void)source, (void)from;
 #endif
 }
 
@@ -53,14 +21,12 @@ LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t ma
                              uint32_t s3, uint32_t aux)
 {
 #if LRB_LEVEL == LRB_RECORD
-    lrb_mark_far(c, 0, s0), lrb_mark_far(c, 1, s1), lrb_mark_far(c, 2, s2), lrb_mark_far(c, 3, s3);
-    lrb_event *e = c->free_event;
-    uint32_t id = c->next_event;
-    *e = (lrb_event){.op = (uint16_t)(op | form), .mask = (uint16_t)mask, .aux = aux,
-                     .src = {lrb_distance(id, s0), lrb_distance(id, s1), lrb_distance(id, s2), lrb_distance(id, s3)}};
-    c->next_event = id + 1;
-    lrb_put(c, e);
-    return id;
+    const uint64_t what = (uint64_t)mask << 48 | (uint64_t)(op | form) << 32 | aux;
+#ifdef LRB_ANNOTATED
+    return lrb_put_far(c, what, s0, s1, s2, s3);
+#else
+    return lrb_put(c, what, s0, s1, s2, s3);
+#endif
 #else
 #if LRB_LEVEL == LRB_COUNT
     c->ops[op]++;

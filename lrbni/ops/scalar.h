@@ -234,7 +234,7 @@ LRB_INLINE void lrb_phase(lrb_ctx *c, uint32_t phase) { lrb_mark(c, LRB_OP_phase
 #define LRB_WHOLE_TILE UINT32_MAX
 LRB_INLINE void lrb_region(lrb_ctx *c, uint32_t region) { lrb_mark(c, LRB_OP_region, region); }
 
-/** What follows is written in that source and line (LRB_SITE); what lrb_mark_far tells. Annotated kernels have them from their ops. */
+/** What follows is written in that source and line (LRB_SITE); what lrb_put_far tells. Annotated kernels have them from their ops. */
 LRB_INLINE void lrb_line(lrb_ctx *c, uint32_t site) { lrb_mark(c, LRB_OP_line, site); }
 LRB_INLINE void lrb_far(lrb_ctx *c, uint32_t number) { lrb_mark(c, LRB_OP_far, number); }
 
