@@ -70,6 +70,7 @@ static simde_convert_fn *const functions[] = {
 const simde_conversions SIMDE_NAME = {
 #if defined(SIMDE_NO_NATIVE)
     .how = "plain C",
+    .plain = 1,
 #else
     .how = "instructions",
 #endif

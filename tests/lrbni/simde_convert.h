@@ -8,6 +8,7 @@ typedef void simde_convert_fn(const uint32_t d[16], const uint32_t a[16], const 
 
 typedef struct simde_conversions {
     const char *how; /* "plain C" or "instructions" */
+    int plain;       /* whether no function is made of instructions */
     int avx512;      /* whether AVX-512's functions are instructions */
     simde_convert_fn *const *functions; /* in the order of simde_convert.def */
 } simde_conversions;

@@ -9,7 +9,7 @@
 /* SIMDE_LANES, random lanes for each op, is given by the build: fewer with sanitizers. */
 
 typedef enum lanes { FLOATS, INTEGERS, DOUBLES } lanes;
-typedef enum except { NONE, OVERFLOW, INSTRUCTIONS } except;
+typedef enum except { NONE, OVERFLOW, INSTRUCTIONS, TWICE } except;
 
 typedef struct row {
     const char *name;
@@ -87,6 +87,12 @@ static void compare(const row *r, const uint32_t b[16], const uint32_t got[16], 
     }
 }
 
+/* Whether SIMDe's results for that op are known to be wrong. */
+static bool is_left_out(const row *r, const simde_conversions *simde)
+{
+    return !simde->avx512 && (r->but == INSTRUCTIONS || (r->but == TWICE && !simde->plain));
+}
+
 static void as_simde(lrb_ctx *c, const simde_conversions *simde)
 {
     base_random random = {.state = 70};
@@ -100,8 +106,10 @@ static void as_simde(lrb_ctx *c, const simde_conversions *simde)
         for (int i = 0; i < ROWS; i++) {
             const row *r = &rows[i];
             bool narrow = !r->doubles && r->from != DOUBLES;
-            if ((narrow && n % 2) || (r->but == INSTRUCTIONS && !simde->avx512))
+            if (narrow && n % 2)
                 continue; /* sixteen lanes at a time */
+            if (is_left_out(r, simde))
+                continue;
             uint32_t got[16], theirs[16] = {0};
             r->run(c, d, a, b[r->from], got);
             simde->functions[i](d, a, b[r->from], theirs);
