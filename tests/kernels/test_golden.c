@@ -20,7 +20,7 @@
 #include "scene/builtin.h"
 #include "tests/kernels/trace.h"
 
-enum { SIZE = 64, MOST_LINES = 128, MOST_CHARACTERS = 2048 };
+enum { SIZE = 32, MOST_LINES = 128, MOST_CHARACTERS = 2048 };
 
 typedef struct golden {
     char lines[MOST_LINES][MOST_CHARACTERS];

@@ -12,7 +12,7 @@
 #include "sim/registers.h"
 #include "tests/kernels/trace.h"
 
-enum { SIZE = 64 };
+enum { SIZE = 32 };
 
 static sim_registers_stats analyse(const kernel_info *kernel, const kernel_params *params, const trace_trees *trees, const scene *s,
                                    kernel_counts *n)

@@ -56,8 +56,9 @@ static uint8_t *program_of_every_op(base_random *random)
 
 static outcome *run(program_fn *program, bool record)
 {
-    outcome *o = calloc(1, sizeof *o);
+    outcome *o = aligned_alloc(_Alignof(outcome), sizeof *o);
     assert_non_null(o);
+    memset(o, 0, sizeof *o);
     base_random random = {.state = 40};
     uint8_t *code = program_of_every_op(&random);
     for (int i = 0; i < PROGRAM_REGISTERS; i++) {

@@ -34,7 +34,8 @@ static void closest__two_planes__nearest_id_t_u_v(void **state)
     (void)state;
     oracle_hit hit = cast((oracle_ray){{0.25f, 0.5f, 2}, {0, 0, -2}, 0, INFINITY}, 0);
     assert_int_equal(hit.id, 1);
-    assert_true(hit.t == 0.5 && hit.u == 0.5 && hit.v == 0.25);
+    /* Embree divides by a reciprocal, which it refines from what its host estimates. */
+    assert_true(fabs(hit.t - 0.5) < 1e-6 && fabs(hit.u - 0.5) < 1e-6 && fabs(hit.v - 0.25) < 1e-6);
 }
 
 static void closest__culling__the_front_behind(void **state)
