@@ -23,11 +23,11 @@ static const struct expected {
     unsigned seen; /* at least that percentage of the camera's rays hits something; outdoors there is sky */
 } expected[] = {
     {"rooms-804", 804, UINT64_C(0x8fe28849133d2254), 95},
-    {"hall-60k", 60000, UINT64_C(0xebcbef93d877f773), 95},
-    {"creature-69k", 69000, UINT64_C(0xb0712c4cd7b66311), 60},
+    {"hall-60k", 60000, UINT64_C(0xc251bfa60df1c820), 95},
+    {"creature-69k", 69000, UINT64_C(0xf5a2dbd4a588a9d1), 60},
     {"atrium-76k", 76000, UINT64_C(0x06057a9b1c1354e5), 95},
-    {"forest-174k", 174000, UINT64_C(0x5a7c0d502374dcdb), 75},
-    {"fern-212k", 212000, UINT64_C(0x1d93c13b24577e01), 80},
+    {"forest-174k", 174000, UINT64_C(0xa15dbab5a1d6d9b1), 75},
+    {"fern-212k", 212000, UINT64_C(0xba6fb8b2ad08bcee), 80},
     {"conference-282k", 282000, UINT64_C(0x677003a2b76771d5), 95},
     {"tower-2195k", 2195000, UINT64_C(0x420920bd89beb00f), 95},
     {"dragon-7m", 7218906, UINT64_C(0x5e7ecc70ae98b18c), 60},
