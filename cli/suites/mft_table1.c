@@ -12,7 +12,7 @@ typedef struct measured {
     size_t scenes;
 } measured;
 
-/* The rendered picture with the first algorithm. Heat maps share the scale of the packets before them, which are the dearer; cycles of
+/* The rendered picture with the last algorithm, which has shadows. Heat maps share the scale of the packets before them, which are the dearer; cycles of
    pixels are known only if all tiles were simulated. */
 static base_status write_pictures(const suite *s, const suite_scene *on, measured *m, const run_result *r, mft_algorithm a,
                                   double *top, base_error *err)
@@ -21,7 +21,7 @@ static base_status write_pictures(const suite *s, const suite_scene *on, measure
     char(*paths)[SUITE_PATH_BYTES] = m->pictures[m->scenes];
     report_image image = {0};
     base_status status = BASE_OK;
-    if (a == MFT_P_PACKET) {
+    if (a == MFT_S_FRUSTA) {
         suite_path(s, paths[0], on->stem, ".png");
         status = suite_write_picture(paths[0], picture_shaded(r, &image, err), &image, err);
     }
