@@ -12,8 +12,8 @@ typedef struct measured {
     size_t scenes;
 } measured;
 
-/* The rendered picture with the last algorithm, which has shadows. Heat maps share the scale of the packets before them, which are the dearer; cycles of
-   pixels are known only if all tiles were simulated. */
+/* The rendered picture with the last algorithm, which has shadows. Heat maps share the scale of the packets before them, which are the
+   dearer; cycles of pixels are known only if all tiles were simulated. */
 static base_status write_pictures(const suite *s, const suite_scene *on, measured *m, const run_result *r, mft_algorithm a,
                                   double *top, base_error *err)
 {
