@@ -165,7 +165,7 @@ void sim_field_write(const sim_field_rule *rule, uint64_t value, char text[24])
     if (rule->kind == SIM_KIND_PIPES)
         snprintf(text, 24, "%s%s", value & SIM_PIPE_U ? "U" : "", value & SIM_PIPE_V ? "V" : "");
     else if (value % scale)
-        snprintf(text, 24, "%" PRIu64 ".%u", value / scale, (unsigned)(value % scale) * 10 / scale);
+        snprintf(text, 24, "%" PRIu64 ".%c", value / scale, (char)('0' + value % scale * 10 / scale));
     else
         snprintf(text, 24, "%" PRIu64, value / scale);
 }

@@ -7,7 +7,7 @@ import sys
 from program import SMALL, fails, gltf, main, run, stats_of, unread
 
 HAVE_IMAGES = '--no-images' not in sys.argv[2:]
-SUITES = ['mft-soft', 'mlrta-shadow'] if '--slow-host' in sys.argv[2:] else []  # none named: all
+SUITES = ['mft-soft'] if '--slow-host' in sys.argv[2:] else []  # none named: all
 
 
 def usage__wrong_words__one_line_and_exit_2(folder):
