@@ -36,7 +36,9 @@ enum {
     SCRATCH_INTERVALS = SCRATCH_LANE_PLANE + 64,     /* 2 x 3 x 64: intervals of the directions, widened: smallest, largest */
     SCRATCH_RECTANGLE = SCRATCH_INTERVALS + 384,     /* 4 x 64: part of the light that is left: smallest and largest a, the same of b */
     SCRATCH_SHADING = SCRATCH_RECTANGLE + 256,       /* 64: what the light's point would lend the hit points */
-    SCRATCH_END = SCRATCH_SHADING + 64,
+    SCRATCH_ALIVE = SCRATCH_SHADING + 64,            /* 4: mask of the pixels that may see the light, of several passes */
+    SCRATCH_PASS = SCRATCH_ALIVE + 4,                /* 4: number of the pass, of several */
+    SCRATCH_END = SCRATCH_ALIVE + 64,
 
     /* Groups of 16 packets of 16 rays (kernels/packet/packets256.h): by axis where there are three, then by packet. */
     SCRATCH_PACKET_NEAR = SCRATCH_END,                      /* 3 x 16 x 64: reciprocals of the directions, for near planes ... */

@@ -225,13 +225,15 @@ LRB_INLINE shadow16_start shadow16_begin(lrb_ctx *c, const shadow16 *w)
     return r;
 }
 
-/* Place of the set of samples that pixel f of the block uses in a pass. */
-LRB_INLINE lrb_ptr shadow16_set(lrb_ctx *c, const shadow16 *w, lrb_r64 f, lrb_r64 pass)
+/* Place of the set of samples that pixel f of the block uses in this pass. */
+LRB_INLINE lrb_ptr shadow16_set(lrb_ctx *c, const shadow16 *w, lrb_r64 f)
 {
     _Static_assert(sizeof(job_sample_set) == 1 << 9, "sets are addressed by a shift");
-    lrb_r64 set = pass;
-    if (w->interleaved)
-        set = w->passes > 1 ? lrb_xor(c, f, pass) : f;
+    lrb_r64 set = w->interleaved ? f : lrb_imm(0);
+    if (w->passes > 1) {
+        lrb_r64 pass = lrb_load32(c, lrb_at(w->scratch, SCRATCH_PASS));
+        set = w->interleaved ? lrb_xor(c, f, pass) : pass;
+    }
     return lrb_lea(c, w->samples, lrb_shl(c, set, 9), 1, 0);
 }
 
@@ -279,18 +281,26 @@ LRB_INLINE lrb_k16 shadow16_blocked(lrb_ctx *c, const shadow16 *w, lrb_ptr place
     return triangle16_in_bounds(c, lrb_at(lane, SCRATCH_LIGHT_REACH), w->scratch, origin, record, m, d, hit.t);
 }
 
-/** No sample seen yet. */
-LRB_INLINE void shadow16_begin_passes(lrb_ctx *c, const shadow16 *w, lrb_v16f zero)
+/** No sample seen yet. What several passes need to know of each other is in scratch: a traversal leaves no registers for it. */
+LRB_INLINE void shadow16_begin_passes(lrb_ctx *c, const shadow16 *w, const shadow16_start *start)
 {
-    lrb_store_ps(c, lrb_at(w->scratch, SCRATCH_SEEN), zero);
+    lrb_store_ps(c, lrb_at(w->scratch, SCRATCH_SEEN), start->zero);
+    if (w->passes > 1) {
+        lrb_store32(c, lrb_at(w->scratch, SCRATCH_ALIVE), lrb_kmov_rk(c, start->alive));
+        lrb_store32(c, lrb_at(w->scratch, SCRATCH_PASS), lrb_imm(0));
+    }
 }
 
-/** Of the pixels in `alive` all samples that are taken are unblocked, of the others none. */
-LRB_INLINE void shadow16_begin_pass(lrb_ctx *c, const shadow16 *w, lrb_k16 alive)
+/** Of the pixels that may see the light all samples that are taken are unblocked, of the others none. Returns those pixels. */
+LRB_INLINE lrb_k16 shadow16_begin_pass(lrb_ctx *c, const shadow16 *w, const shadow16_start *start)
 {
+    lrb_k16 alive = start->alive;
+    if (w->passes > 1)
+        alive = lrb_kmov_kr(c, lrb_load32(c, lrb_at(w->scratch, SCRATCH_ALIVE)));
     lrb_v16i none = lrb_load_1to16_pi(c, SHADOW16_LIGHT(w->constants, all_samples));
     lrb_v16i occlusion = lrb_mask_mov_pi_s3(c, none, alive, lrb_1to16_pi(SHADOW16_LIGHT(w->constants, untaken_samples)));
     lrb_store_pi(c, lrb_at(w->scratch, SCRATCH_OCCLUSION), occlusion);
+    return alive;
 }
 
 /** Add up what is seen. Bits are counted in all lanes at once, in pairs, fours, eights. */
@@ -309,6 +319,16 @@ LRB_INLINE void shadow16_end_pass(lrb_ctx *c, const shadow16 *w)
     lrb_v16f seen = lrb_cvtpi2ps(c, bits, LRB_RN, LRB_ADJUST_NONE);
     seen = lrb_add_ps_s3(c, seen, lrb_full_ps(lrb_at(w->scratch, SCRATCH_SEEN)));
     lrb_store_ps(c, lrb_at(w->scratch, SCRATCH_SEEN), seen);
+}
+
+/** Whether another pass follows. */
+LRB_INLINE bool shadow16_next_pass(lrb_ctx *c, const shadow16 *w)
+{
+    if (w->passes == 1)
+        return false;
+    lrb_r64 pass = lrb_add(c, lrb_load32(c, lrb_at(w->scratch, SCRATCH_PASS)), lrb_imm(1));
+    lrb_store32(c, lrb_at(w->scratch, SCRATCH_PASS), pass);
+    return lrb_jb(c, lrb_cmp(c, pass, lrb_imm(w->passes)));
 }
 
 /* Visibility and depth into the rows of pixels; lit, too, if no filter comes. */

@@ -19,6 +19,12 @@
 #undef LRB_SOURCE
 #define LRB_SOURCE KERNEL_SOURCE_TRIANGLE
 
+/* Ask for the next triangle of a leaf while this one is tested; behind the last one that is the first of another leaf. */
+LRB_INLINE void triangle16_prefetch_next(lrb_ctx *c, lrb_ptr record)
+{
+    lrb_prefetch1(c, lrb_at(record, (int32_t)sizeof(bvh_triangle)));
+}
+
 /* Words of the three edge planes in scratch, by the vertex opposite the edge: group 0 holds a x b, 1 b x c, 2 c x a, the
    components of a group in the order z, x, y that one rotation leaves them in. */
 enum { TRIANGLE16_EDGE_A = SCRATCH_EDGES + 16, TRIANGLE16_EDGE_B = SCRATCH_EDGES + 32, TRIANGLE16_EDGE_C = SCRATCH_EDGES };

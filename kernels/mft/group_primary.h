@@ -12,6 +12,7 @@
 #ifndef KERNELS_MFT_GROUP_PRIMARY_H
 #define KERNELS_MFT_GROUP_PRIMARY_H
 
+#include "kernels/frame16.h"
 #include "kernels/mft/corner_cull.h"
 #include "kernels/mft/mft_frusta.h"
 #include "kernels/traversal16.h"
@@ -100,6 +101,7 @@ LRB_INLINE void mft_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr box, lrb_ptr
     lrb_r64 updated = lrb_imm(0);
     (void)box;
     do {
+        triangle16_prefetch_next(c, record);
         updated = mft_triangle(c, s, g, record, m, updated);
         record = lrb_lea(c, record, lrb_imm(0), 1, (int32_t)sizeof(bvh_triangle));
     } while (lrb_jb(c, lrb_cmp_ptr(c, record, end)));
@@ -130,6 +132,16 @@ LRB_INLINE void mft_corners(lrb_ctx *c, mft_group *g, const lrb_v16f first[3], l
     }
 }
 
+/* Ask for the frame's lines of the blocks before `end`, all of which are written before the traversal. */
+LRB_INLINE void mft_prefetch_frame(lrb_ctx *c, const mft_group *g, lrb_ptr end)
+{
+    lrb_ptr hit = lrb_lea(c, g->frame, lrb_imm(0), 1, 0);
+    do {
+        frame16_prefetch(c, hit);
+        hit = lrb_lea(c, hit, lrb_imm(0), 1, 64);
+    } while (lrb_jb(c, lrb_cmp_ptr(c, hit, end)));
+}
+
 /* No hits yet: t is infinite for the pixels of the image, -infinity for the others, which so never count as nearest. */
 LRB_INLINE void mft_clear_frame(lrb_ctx *c, const mft_group *g, const slab16 *s, lrb_ptr tile)
 {
@@ -140,10 +152,7 @@ LRB_INLINE void mft_clear_frame(lrb_ctx *c, const mft_group *g, const slab16 *s,
     lrb_ptr pixels = lrb_lea(c, tile, lrb_imm(0), 1, (int32_t)offsetof(job_tile, pixels));
     do {
         lrb_k16 k = lrb_kmov_kr(c, lrb_load16(c, lrb_at(pixels, 0)));
-        lrb_store_ps(c, lrb_at(hit, (int32_t)offsetof(job_frame_tile, t)), lrb_mask_mov_ps(c, no_pixel, k, s->infinity));
-        lrb_store_ps(c, lrb_at(hit, (int32_t)offsetof(job_frame_tile, u)), s->zero);
-        lrb_store_ps(c, lrb_at(hit, (int32_t)offsetof(job_frame_tile, v)), s->zero);
-        lrb_store_pi(c, lrb_at(hit, (int32_t)offsetof(job_frame_tile, id)), no_hit);
+        frame16_store(c, hit, lrb_mask_mov_ps(c, no_pixel, k, s->infinity), s->zero, s->zero, no_hit);
         g->n->n[KERNEL_rays] += (unsigned)__builtin_popcount(k.bits);
         g->n->n[KERNEL_rays_primary] += (unsigned)__builtin_popcount(k.bits);
         pixels = lrb_lea(c, pixels, lrb_imm(0), 1, 2);
@@ -190,6 +199,7 @@ LRB_INLINE void group_primary_tile(lrb_ctx *c, const kernel_job *job, uint32_t t
     t.nearest = g.frame;
     lrb_region(c, LRB_WHOLE_TILE);
     lrb_phase(c, KERNEL_PHASE_SETUP);
+    mft_prefetch_frame(c, &g, lrb_lea(c, g.frame, lrb_imm(0), 1, (int32_t)sizeof(job_frame_tile) / 4));
     t.origin = lrb_load_ps(c, RAYS16_CONSTANT(g.constants, origin_box));
     g.origin = lrb_load_ps(c, RAYS16_CONSTANT(g.constants, origin_triangle));
     lrb_k16 active = lrb_kmov_kr(c, lrb_load32(c, lrb_at(tile_ptr, (int32_t)offsetof(job_tile, blocks))));

@@ -16,7 +16,7 @@
 
 typedef struct mft_soft {
     shadow16 w;
-    lrb_r64 pass;
+    bool again; /* not the first pass */
     kernel_shrink shrink;
     bool packets; /* a constant: boxes are tested against the rays */
 } mft_soft;
@@ -26,7 +26,7 @@ LRB_INLINE bool mft_soft_intersect(lrb_ctx *c, slab16 *s, const mft_soft *g, lrb
 {
     lrb_v16f d[3];
     lrb_ptr lane = lrb_lea(c, g->w.scratch, f, 4, 0);
-    shadow16_rays(c, lane, shadow16_set(c, &g->w, f, g->pass), d);
+    shadow16_rays(c, lane, shadow16_set(c, &g->w, f), d);
     g->w.n->n[KERNEL_isect_tests]++;
     lrb_k16 left = shrink_left(c, lane);
     lrb_k16 blocked = shadow16_blocked(c, &g->w, lane, &lane_cull_layout, lane, record, left, d, s->zero);
@@ -66,7 +66,7 @@ LRB_INLINE void mft_soft_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr box, lr
     lrb_r64 updated = lrb_imm(0);
     if (g->shrink == KERNEL_SHRINK_RAYS) {
         lrb_phase(c, KERNEL_PHASE_CULLING);
-        m = shrink_leaf(c, s, &g->w, box, m, g->pass);
+        m = shrink_leaf(c, s, &g->w, box, m);
         if (lrb_jz(c, lrb_kortest(c, m, m)))
             return;
     }
@@ -79,7 +79,7 @@ LRB_INLINE void mft_soft_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr box, lr
     } while (lrb_jb(c, lrb_cmp_ptr(c, record, end)));
     if (g->shrink == KERNEL_SHRINK_CORNERS || g->shrink == KERNEL_SHRINK_FRUSTA) {
         lrb_phase(c, KERNEL_PHASE_CULLING);
-        shrink_frusta(c, s, &g->w, g->shrink, updated, g->pass);
+        shrink_frusta(c, s, &g->w, g->shrink, updated);
     }
 }
 
@@ -102,7 +102,7 @@ LRB_INLINE void mft_soft_packets(lrb_ctx *c, slab16 *s, const mft_soft *g, lrb_k
         lrb_ptr lane = lrb_lea(c, g->w.scratch, f, 4, 0);
         lrb_v16f origin = shadow16_origin(c, lane, 0x1111, s->zero);
         lrb_store_ps(c, lrb_at(packets256_wide(c, g->w.scratch, f), SCRATCH_PACKET_ORIGIN), origin);
-        shadow16_rays(c, lane, shadow16_set(c, &g->w, f, g->pass), d);
+        shadow16_rays(c, lane, shadow16_set(c, &g->w, f), d);
         lrb_v16f slack = lrb_load_1to16_ps(c, lrb_at(lane, SCRATCH_LIGHT_SLACK));
         packets256_add(c, s, g->w.constants, g->w.scratch, f, slack, lrb_imm(g->w.sample_mask), d);
         f = lrb_bsfi(c, f, bits);
@@ -121,7 +121,7 @@ LRB_INLINE void mft_soft_trace(lrb_ctx *c, const traversal16 *t, mft_soft *g, co
         hi[axis] = start->hi[axis];
         s.origin[axis] = lrb_load_ps(c, lrb_at(g->w.scratch, SCRATCH_HIT_POINTS + 64 * axis));
     }
-    if (g->pass.value > 0 && (g->shrink == KERNEL_SHRINK_CORNERS || g->shrink == KERNEL_SHRINK_FRUSTA))
+    if (g->again && (g->shrink == KERNEL_SHRINK_CORNERS || g->shrink == KERNEL_SHRINK_FRUSTA))
         mft_soft_restore(c, g, s.origin);
     const unsigned frusta = (unsigned)__builtin_popcount(start->alive.bits);
     g->w.n->n[KERNEL_units_shadow_groups]++;
@@ -145,17 +145,17 @@ LRB_INLINE void mft_soft_block(lrb_ctx *c, const traversal16 *t, mft_soft *g)
 {
     shadow16 *w = &g->w;
     lrb_phase(c, KERNEL_PHASE_SHADING);
-    g->pass = lrb_imm(0);
+    g->again = false;
     shadow16_start start = shadow16_begin(c, w);
-    shadow16_begin_passes(c, w, start.zero);
+    shadow16_begin_passes(c, w, &start);
     do {
-        shadow16_begin_pass(c, w, start.alive);
+        start.alive = shadow16_begin_pass(c, w, &start);
         if (!lrb_jz(c, lrb_kortest(c, start.alive, start.alive)))
             mft_soft_trace(c, t, g, &start);
         lrb_phase(c, KERNEL_PHASE_SHADING);
         shadow16_end_pass(c, w);
-        g->pass = w->passes > 1 ? lrb_add(c, g->pass, lrb_imm(1)) : g->pass;
-    } while (w->passes > 1 && lrb_jb(c, lrb_cmp(c, g->pass, lrb_imm(w->passes))));
+        g->again = true;
+    } while (shadow16_next_pass(c, w));
     shadow16_end(c, w, start.hits);
 }
 

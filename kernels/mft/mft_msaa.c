@@ -61,17 +61,13 @@ LRB_INLINE lrb_k16 mft_msaa_samples(lrb_ctx *c, const kernel_job *job, const sil
     return active;
 }
 
-/* No hits yet of the frusta in `active`. */
-LRB_INLINE void mft_msaa_clear(lrb_ctx *c, const mft_group *g, const slab16 *s, lrb_k16 active)
+/* No hits yet of the frusta whose results are before `end`. */
+LRB_INLINE void mft_msaa_clear(lrb_ctx *c, const mft_group *g, const slab16 *s, lrb_ptr end)
 {
     lrb_v16i no_hit = lrb_load_1to16_pi(c, RAYS16_CONSTANT(g->constants, no_hit));
     lrb_ptr hit = lrb_lea(c, g->frame, lrb_imm(0), 1, 0);
-    lrb_ptr end = lrb_lea(c, g->frame, lrb_shl(c, lrb_popcnt(c, lrb_kmov_rk(c, active)), 6), 1, 0);
     do {
-        lrb_store_ps(c, lrb_at(hit, (int32_t)offsetof(job_frame_tile, t)), s->infinity);
-        lrb_store_ps(c, lrb_at(hit, (int32_t)offsetof(job_frame_tile, u)), s->zero);
-        lrb_store_ps(c, lrb_at(hit, (int32_t)offsetof(job_frame_tile, v)), s->zero);
-        lrb_store_pi(c, lrb_at(hit, (int32_t)offsetof(job_frame_tile, id)), no_hit);
+        frame16_store(c, hit, s->infinity, s->zero, s->zero, no_hit);
         hit = lrb_lea(c, hit, lrb_imm(0), 1, 64);
     } while (lrb_jb(c, lrb_cmp_ptr(c, hit, end)));
 }
@@ -101,6 +97,8 @@ LRB_INLINE void mft_msaa_trace(lrb_ctx *c, const kernel_job *job, uint32_t tile,
         slab16 s = {.own_origins = false};
         lrb_phase(c, KERNEL_PHASE_SETUP);
         lrb_k16 active = g->user ? mft_msaa_blocks(c, job, w, g, &i) : mft_msaa_samples(c, job, w, g, next, count, &i);
+        lrb_ptr end = lrb_lea(c, g->frame, lrb_shl(c, lrb_popcnt(c, lrb_kmov_rk(c, active)), 6), 1, 0);
+        mft_prefetch_frame(c, g, end);
         lrb_v16f slack = lrb_load_1to16_ps(c, RAYS16_CONSTANT(g->constants, slack));
         slab16_setup(c, &s, g->constants, g->scratch, slack, active, i.lo, i.hi, g->n);
         s.limit = lrb_mov_ps(c, s.infinity);
@@ -108,7 +106,7 @@ LRB_INLINE void mft_msaa_trace(lrb_ctx *c, const kernel_job *job, uint32_t tile,
             mft_clear_frame(c, g, &s, w->tile);
             silhouettes_clear(c, w, g, &s);
         } else {
-            mft_msaa_clear(c, g, &s, active);
+            mft_msaa_clear(c, g, &s, end);
         }
         traversal16_run(c, &t, &s, active);
         if (g->user) {

@@ -38,11 +38,11 @@ LRB_INLINE lrb_k16 shrink_left(lrb_ctx *c, lrb_ptr lane)
 }
 
 /* The rectangle of frustum f's samples that are left. */
-LRB_INLINE void shrink_rectangle(lrb_ctx *c, const shadow16 *w, lrb_r64 f, lrb_r64 pass)
+LRB_INLINE void shrink_rectangle(lrb_ctx *c, const shadow16 *w, lrb_r64 f)
 {
     lrb_k16 left = shrink_left(c, lrb_lea(c, w->scratch, f, 4, 0));
     lrb_k16 lane = lrb_kmov_kr(c, lrb_bts(c, lrb_imm(0), f));
-    lrb_ptr set = shadow16_set(c, w, f, pass);
+    lrb_ptr set = shadow16_set(c, w, f);
     lrb_v16f infinity = lrb_load_ps(c, RAYS16_CONSTANT(w->constants, infinity));
     lrb_v16f minus_infinity = lrb_load_ps(c, RAYS16_CONSTANT(w->constants, no_pixel));
     for (int axis = 0; axis < 2; axis++) {
@@ -112,7 +112,7 @@ LRB_INLINE void shrink_interval(lrb_ctx *c, slab16 *s, const shadow16 *w, int ax
  *
  * @param frusta  those that had rays blocked in the leaf: bits
  */
-LRB_INLINE void shrink_frusta(lrb_ctx *c, slab16 *s, const shadow16 *w, kernel_shrink shrink, lrb_r64 frusta, lrb_r64 pass)
+LRB_INLINE void shrink_frusta(lrb_ctx *c, slab16 *s, const shadow16 *w, kernel_shrink shrink, lrb_r64 frusta)
 {
     lrb_k16 m = lrb_kand(c, lrb_kmov_kr(c, frusta), s->alive);
     if (lrb_jz(c, lrb_kortest(c, m, m)))
@@ -122,7 +122,7 @@ LRB_INLINE void shrink_frusta(lrb_ctx *c, slab16 *s, const shadow16 *w, kernel_s
     lrb_r64 bits = lrb_kmov_rk(c, m);
     lrb_r64 f = lrb_bsfi(c, lrb_imm(UINT64_MAX), bits);
     do {
-        shrink_rectangle(c, w, f, pass);
+        shrink_rectangle(c, w, f);
         f = lrb_bsfi(c, f, bits);
     } while (!lrb_jl(c, lrb_test(c, f, f)));
     for (int axis = 0; axis < 3; axis++) {
@@ -154,14 +154,14 @@ LRB_INLINE void shrink_ray_axis(lrb_ctx *c, slab16 *rays, lrb_ptr constants, lrb
 }
 
 /* Whether one of frustum f's rays that are left meets a leaf's box: the tight test, whatever their signs. */
-LRB_INLINE bool shrink_meets(lrb_ctx *c, const slab16 *s, const shadow16 *w, lrb_ptr box, lrb_r64 f, lrb_r64 pass)
+LRB_INLINE bool shrink_meets(lrb_ctx *c, const slab16 *s, const shadow16 *w, lrb_ptr box, lrb_r64 f)
 {
     _Static_assert(SCRATCH_BOXES == 0, "a box anywhere stands where slab16 looks for one in scratch");
     slab16 rays = {.own_origins = true, .path = SLAB16_ZERO, .zero = s->zero, .infinity = s->infinity};
     lrb_v16f d[3], entry = s->zero, exit = s->limit;
     lrb_ptr lane = lrb_lea(c, w->scratch, f, 4, 0);
     lrb_k16 left = shrink_left(c, lane);
-    shadow16_rays(c, lane, shadow16_set(c, w, f, pass), d);
+    shadow16_rays(c, lane, shadow16_set(c, w, f), d);
     lrb_v16f slack = lrb_load_1to16_ps(c, lrb_at(lane, SCRATCH_LIGHT_SLACK));
     w->n->n[KERNEL_aabb_tests]++;
     for (int axis = 0; axis < 3; axis++) {
@@ -173,14 +173,14 @@ LRB_INLINE bool shrink_meets(lrb_ctx *c, const slab16 *s, const shadow16 *w, lrb
 }
 
 /** Before a leaf: the frusta of m without those, partly blocked, none of whose rays that are left meets its box. */
-LRB_INLINE lrb_k16 shrink_leaf(lrb_ctx *c, const slab16 *s, const shadow16 *w, lrb_ptr box, lrb_k16 m, lrb_r64 pass)
+LRB_INLINE lrb_k16 shrink_leaf(lrb_ctx *c, const slab16 *s, const shadow16 *w, lrb_ptr box, lrb_k16 m)
 {
     lrb_r64 kept = lrb_kmov_rk(c, m);
     lrb_r64 f = lrb_bsfi(c, lrb_imm(UINT64_MAX), kept);
     do {
         lrb_r64 occlusion = lrb_load32(c, lrb_at(lrb_lea(c, w->scratch, f, 4, 0), SCRATCH_OCCLUSION));
         if (!lrb_jz(c, lrb_cmp(c, occlusion, lrb_imm(0xffffu & ~w->sample_mask))))
-            if (!shrink_meets(c, s, w, box, f, pass))
+            if (!shrink_meets(c, s, w, box, f))
                 kept = lrb_xor(c, kept, lrb_bts(c, lrb_imm(0), f));
         f = lrb_bsfi(c, f, kept); /* bits before f do not matter */
     } while (!lrb_jl(c, lrb_test(c, f, f)));

@@ -2,6 +2,7 @@
 #ifndef KERNELS_MLRTA_KD16_TILE_H
 #define KERNELS_MLRTA_KD16_TILE_H
 
+#include "kernels/frame16.h"
 #include "kernels/mlrta/kd16.h"
 
 #undef LRB_SOURCE
@@ -16,14 +17,6 @@ LRB_INLINE void kd16_begin(lrb_ctx *c, kd16 *k)
         lrb_r64 origin = lrb_load32(c, RAYS16_CONSTANT(k->constants, origin_box[axis]));
         lrb_store32(c, lrb_at(k->scratch, KD_ROWS + 64 * axis + (int32_t)offsetof(kd16_row, origin)), origin);
     }
-}
-
-LRB_INLINE void kd16_store(lrb_ctx *c, lrb_ptr block_frame, const slab16 *s, const kd16 *k)
-{
-    lrb_store_ps(c, lrb_at(block_frame, (int32_t)offsetof(job_frame_tile, t)), s->limit);
-    lrb_store_ps(c, lrb_at(block_frame, (int32_t)offsetof(job_frame_tile, u)), k->u);
-    lrb_store_ps(c, lrb_at(block_frame, (int32_t)offsetof(job_frame_tile, v)), k->v);
-    lrb_store_pi(c, lrb_at(block_frame, (int32_t)offsetof(job_frame_tile, id)), k->id);
 }
 
 /* No hits yet; the pixels outside the image are never hit. */
@@ -90,9 +83,11 @@ LRB_INLINE void kd16_blocks(lrb_ctx *c, kd16 *k, lrb_ptr tile, lrb_ptr frame, co
         k->n->n[KERNEL_units_packets]++;
         k->n->n[KERNEL_rays] += (unsigned)__builtin_popcount(active.bits);
         k->n->n[KERNEL_rays_primary] += (unsigned)__builtin_popcount(active.bits);
+        lrb_ptr block_frame = lrb_lea(c, frame, lrb_shl(c, block, 6), 1, 0);
+        frame16_prefetch(c, block_frame);
         const lrb_r64 root = start ? lrb_load32(c, *start) : lrb_imm(0);
         kd16_packet(c, k, &s, lrb_lea(c, k->scratch, block, 4, SCRATCH_CORNERS), root, nothing, active);
-        kd16_store(c, lrb_lea(c, frame, lrb_shl(c, block, 6), 1, 0), &s, k);
+        frame16_store(c, block_frame, s.limit, k->u, k->v, k->id);
         block = lrb_bsfi(c, block, blocks);
     }
     lrb_region(c, LRB_WHOLE_TILE);

@@ -2,6 +2,7 @@
  *
  * The sixteen packets of a tile are traced one after another; a packet's directions and nearest hits live in registers.
  */
+#include "kernels/frame16.h"
 #include "kernels/tile_function.h"
 #include "kernels/traversal16.h"
 #include "kernels/triangle16.h"
@@ -25,6 +26,7 @@ LRB_INLINE void packet16_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr box, lr
     (void)box;
     do {
         lrb_v16f edges;
+        triangle16_prefetch_next(c, record);
         p->n->n[KERNEL_tri_accesses]++;
         lrb_phase(c, KERNEL_PHASE_CULLING);
         if (triangle16_setup(c, p->scratch, p->origin, record, p->cull, &edges)) {
@@ -42,14 +44,6 @@ LRB_INLINE void packet16_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr box, lr
         }
         record = lrb_lea(c, record, lrb_imm(0), 1, (int32_t)sizeof(bvh_triangle));
     } while (lrb_jb(c, lrb_cmp_ptr(c, record, end)));
-}
-
-LRB_INLINE void packet16_store(lrb_ctx *c, lrb_ptr block_frame, const slab16 *s, const packet16 *p)
-{
-    lrb_store_ps(c, lrb_at(block_frame, (int32_t)offsetof(job_frame_tile, t)), s->limit);
-    lrb_store_ps(c, lrb_at(block_frame, (int32_t)offsetof(job_frame_tile, u)), p->u);
-    lrb_store_ps(c, lrb_at(block_frame, (int32_t)offsetof(job_frame_tile, v)), p->v);
-    lrb_store_pi(c, lrb_at(block_frame, (int32_t)offsetof(job_frame_tile, id)), p->id);
 }
 
 /* Directions, signs and empty hits of one block of the tile; its first ray stands at `corner`, by axis. */
@@ -81,10 +75,11 @@ LRB_INLINE void packet16_trace(lrb_ctx *c, const traversal16 *t, packet16 *p, lr
     t->n->n[KERNEL_units_packets]++;
     t->n->n[KERNEL_rays] += (unsigned)__builtin_popcount(active.bits);
     t->n->n[KERNEL_rays_primary] += (unsigned)__builtin_popcount(active.bits);
+    frame16_prefetch(c, block_frame);
     packet16_start(c, p, &s, constants, corner, active);
     traversal16_run(c, t, &s, active);
     lrb_phase(c, KERNEL_PHASE_SETUP);
-    packet16_store(c, block_frame, &s, p);
+    frame16_store(c, block_frame, s.limit, p->u, p->v, p->id);
 }
 
 LRB_INLINE void packet16_tile(lrb_ctx *c, const kernel_job *job, uint32_t tile, kernel_counts *n)

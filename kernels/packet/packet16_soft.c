@@ -44,7 +44,7 @@ LRB_INLINE void packet16_soft_leaf(lrb_ctx *c, slab16 *s, void *user, lrb_ptr bo
 }
 
 /* The packet of pixel f, with one set of samples. */
-LRB_INLINE void packet16_soft_trace(lrb_ctx *c, traversal16 *t, packet16_soft *p, lrb_v16f zero, lrb_r64 f, lrb_r64 pass)
+LRB_INLINE void packet16_soft_trace(lrb_ctx *c, traversal16 *t, packet16_soft *p, lrb_v16f zero, lrb_r64 f)
 {
     slab16 s = {.own_origins = false};
     lrb_v16f lo[3], hi[3];
@@ -52,7 +52,7 @@ LRB_INLINE void packet16_soft_trace(lrb_ctx *c, traversal16 *t, packet16_soft *p
     p->lane = lrb_lea(c, p->w.scratch, f, 4, 0);
     t->origin = shadow16_origin(c, p->lane, 0x1111, zero);
     p->origin = lrb_mask_mov_ps(c, zero, lrb_kmov_kr(c, lrb_imm(0x0fff)), t->origin);
-    shadow16_rays(c, p->lane, shadow16_set(c, &p->w, f, pass), p->d);
+    shadow16_rays(c, p->lane, shadow16_set(c, &p->w, f), p->d);
     for (int axis = 0; axis < 3; axis++)
         lo[axis] = hi[axis] = p->d[axis];
     s.alive = lrb_kmov_kr(c, lrb_imm(p->w.sample_mask));
@@ -75,19 +75,17 @@ LRB_INLINE void packet16_soft_block(lrb_ctx *c, traversal16 *t, packet16_soft *p
     lrb_phase(c, KERNEL_PHASE_SHADING);
     shadow16_start start = shadow16_begin(c, w);
     lrb_r64 pixels = lrb_kmov_rk(c, start.alive);
-    lrb_r64 pass = lrb_imm(0);
-    shadow16_begin_passes(c, w, start.zero);
+    shadow16_begin_passes(c, w, &start);
     do {
-        shadow16_begin_pass(c, w, start.alive);
+        start.alive = shadow16_begin_pass(c, w, &start);
         lrb_r64 f = lrb_bsfi(c, lrb_imm(UINT64_MAX), pixels);
         while (!lrb_jl(c, lrb_test(c, f, f))) {
-            packet16_soft_trace(c, t, p, start.zero, f, pass);
+            packet16_soft_trace(c, t, p, start.zero, f);
             f = lrb_bsfi(c, f, pixels);
         }
         lrb_phase(c, KERNEL_PHASE_SHADING);
         shadow16_end_pass(c, w);
-        pass = w->passes > 1 ? lrb_add(c, pass, lrb_imm(1)) : pass;
-    } while (w->passes > 1 && lrb_jb(c, lrb_cmp(c, pass, lrb_imm(w->passes))));
+    } while (shadow16_next_pass(c, w));
     shadow16_end(c, w, start.hits);
 }
 

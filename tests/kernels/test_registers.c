@@ -64,6 +64,17 @@ static void check_shrinking(const kernel_info *kernel, const trace_trees *trees,
     }
 }
 
+/* Several passes of samples, on the smallest scene. */
+static void check_passes(const kernel_info *kernel, const trace_trees *trees, const scene *s, kernel_counts *n)
+{
+    kernel_params params = kernel->defaults;
+    if (params.samples == 0 || s->triangle_count > 10000)
+        return;
+    params.samples = 64;
+    sim_registers_stats stats = analyse(kernel, &params, trees, s, n);
+    check(kernel, s->name, &stats);
+}
+
 static void registers__every_kernel_usual_scenes__nothing_spilled(void **state)
 {
     size_t kernels, scenes;
@@ -83,6 +94,7 @@ static void registers__every_kernel_usual_scenes__nothing_spilled(void **state)
                 check(&kernel[k], s->name, &stats);
             }
             check_shrinking(&kernel[k], &trees, s, &n);
+            check_passes(&kernel[k], &trees, s, &n);
             trace_trees_destroy(&trees);
         }
         scene_destroy(&s);
