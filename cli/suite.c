@@ -71,21 +71,35 @@ static void name_scene(const suite *s, suite_scene *on, const char *name)
         snprintf(on->stem + strlen(on->stem), 16, "-%zu", same + 1);
 }
 
+static base_status open_scene(suite *s, size_t i, base_error *err)
+{
+    suite_scene *on = &s->scenes[i];
+    if (on->scene)
+        return BASE_OK;
+    base_status status = scene_open(scene_argument(s, i), &on->scene, err);
+    if (status == BASE_OK) {
+        name_scene(s, on, on->scene->name);
+        on->triangles = on->scene->triangle_count;
+    }
+    return status;
+}
+
+base_status suite_open_scenes(suite *s, base_error *err)
+{
+    base_status status = BASE_OK;
+    for (size_t i = 0; status == BASE_OK && i < s->scene_count; i++)
+        status = open_scene(s, i, err);
+    return status;
+}
+
 base_status suite_each_scene(suite *s, suite_scene_fn *measure, void *user, base_error *err)
 {
     base_status status = BASE_OK;
     for (size_t i = 0; status == BASE_OK && i < s->scene_count; i++) {
-        scene *opened = NULL;
-        suite_scene *on = &s->scenes[i];
-        status = scene_open(scene_argument(s, i), &opened, err);
-        if (status == BASE_OK) {
-            name_scene(s, on, opened->name);
-            on->scene = opened;
-            on->triangles = opened->triangle_count;
-            status = measure(s, on, user, err);
-            on->scene = NULL;
-        }
-        scene_destroy(&opened);
+        status = open_scene(s, i, err);
+        if (status == BASE_OK)
+            status = measure(s, &s->scenes[i], user, err);
+        scene_destroy(&s->scenes[i].scene);
     }
     return status;
 }
@@ -262,6 +276,8 @@ base_status suite_run(const suite_info *info, const suite_options *options, base
     }
     for (size_t i = 0; i < s.table_count; i++)
         report_table_destroy(&s.tables[i].table);
+    for (size_t i = 0; s.scenes && i < s.scene_count; i++)
+        scene_destroy(&s.scenes[i].scene);
     free(s.tables);
     free(s.scenes);
     report_page_destroy(&s.page);

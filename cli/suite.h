@@ -58,7 +58,7 @@ typedef struct suite_scene {
     char name[SUITE_NAME_BYTES];
     char stem[SUITE_NAME_BYTES + 16]; /* for file names: plain characters, numbered if an earlier scene has the same name */
     size_t triangles;
-    const scene *scene; /* NULL but while the suite measures it */
+    scene *scene; /* NULL unless it is open */
 } suite_scene;
 
 /* A table of a suite, and the part of its CSV file's name that follows the suite's. */
@@ -84,10 +84,13 @@ base_status suite_run(const suite_info *info, const suite_options *options, base
 
 /* The rest is for suites. */
 
+/** Open all scenes that are not open yet, for as long as the suite is at work. Errors: those of scene_open. */
+base_status suite_open_scenes(suite *s, base_error *err);
+
 /** Called for each scene in turn, while it is open. */
 typedef base_status suite_scene_fn(suite *s, const suite_scene *on, void *user, base_error *err);
 
-/** Open the scenes one after the other. Errors: those of scene_open and of `measure`. */
+/** Open the scenes one after the other; each is closed before the next. Errors: those of scene_open and of `measure`. */
 base_status suite_each_scene(suite *s, suite_scene_fn *measure, void *user, base_error *err);
 
 /** Options of a run as the suite's own options have them: size, jobs, a progress bar, the kernel's default parameters. */

@@ -9,7 +9,7 @@ static const double scales[] = {0.125, 0.25, 0.5, 1, 2};
 enum { SCALES = sizeof scales / sizeof *scales };
 
 typedef struct measured {
-    mft_light_row *rows;
+    mft_light_row *rows; /* by scene, then by scale */
     size_t count;
 } measured;
 
@@ -26,34 +26,30 @@ static double penumbra_of(const run_result *r)
     return (double)partly / ((double)r->options.width * r->options.height);
 }
 
-static base_status measure_light(const suite *s, const suite_scene *on, mft_algorithm algorithm, mft_light_row *row,
-                                 base_error *err)
+static base_status take_light(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
 {
-    run_result result = {0};
-    run_options options = mft_run_options(s, algorithm);
-    options.params.light_scale = row->scale;
-    base_status status = run_kernel(on->scene, s->options->machine, &options, &result, err);
-    if (status == BASE_OK) {
-        *(algorithm == MFT_S_PACKET ? &row->packet : &row->frusta) = mft_row_of(&result, on->name, algorithm);
-        row->rays = (double)result.counts.n[KERNEL_rays_shadow];
-        row->penumbra = penumbra_of(&result);
-    }
-    run_result_destroy(&result);
-    return status;
+    const measured *m = user;
+    mft_light_row *row = &m->rows[entry->row];
+    const bool packet = entry->options.kernel == kernel_find(mft_kernel(MFT_S_PACKET));
+    (void)err;
+    *(packet ? &row->packet : &row->frusta) = mft_row_of(result, s->scenes[entry->scene].name, packet ? MFT_S_PACKET : MFT_S_FRUSTA);
+    row->scale = entry->options.params.light_scale;
+    row->rays = (double)result->counts.n[KERNEL_rays_shadow];
+    row->penumbra = penumbra_of(result);
+    return BASE_OK;
 }
 
-static base_status measure_scene(suite *s, const suite_scene *on, void *user, base_error *err)
+static base_status measure_rows(suite *s, measured *m, base_error *err)
 {
-    measured *m = user;
-    base_status status = BASE_OK;
-    for (int i = 0; status == BASE_OK && i < SCALES; i++) {
-        mft_light_row *row = &m->rows[m->count++];
-        row->scale = scales[i];
-        status = measure_light(s, on, MFT_S_PACKET, row, err);
-        if (status == BASE_OK)
-            status = measure_light(s, on, MFT_S_FRUSTA, row, err);
-    }
-    return status;
+    static const mft_algorithm dearest_first[] = {MFT_S_PACKET, MFT_S_FRUSTA};
+    suite_runs runs = {0};
+    for (int a = 0; a < 2; a++)
+        for (size_t row = m->count; row-- > 0;) {
+            suite_run_entry entry = {.scene = row / SCALES, .row = row, .options = mft_run_options(s, dearest_first[a]), .take = take_light};
+            entry.options.params.light_scale = scales[row % SCALES];
+            suite_runs_add(&runs, entry);
+        }
+    return suite_runs_take(s, &runs, m, err);
 }
 
 static base_status add_plot(suite *s, const measured *m, base_error *err)
@@ -84,10 +80,11 @@ static base_status add_results(suite *s, const measured *m, base_error *err)
 
 static base_status measure(suite *s, base_error *err)
 {
-    measured m = {.rows = calloc(s->scene_count * SCALES, sizeof *m.rows)};
+    const size_t count = s->scene_count * SCALES;
+    measured m = {.rows = calloc(count, sizeof *m.rows), .count = count};
     base_status status = m.rows ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
     if (status == BASE_OK)
-        status = suite_each_scene(s, measure_scene, &m, err);
+        status = measure_rows(s, &m, err);
     if (status == BASE_OK)
         status = add_results(s, &m, err);
     free(m.rows);

@@ -15,24 +15,10 @@ static const char *const rests[PICTURES] = {"-1-ray.png", "-adaptive.png", "-16-
 static const char *const captions[PICTURES] = {"1 ray a pixel", "adaptive", "16 rays a pixel", "marked pixels"};
 
 typedef struct measured {
-    mft_msaa_row *rows;
-    char (*paths)[PICTURES][SUITE_PATH_BYTES]; /* by scene */
-    size_t count;
+    mft_msaa_row *rows;                        /* by scene, like the others */
+    char (*paths)[PICTURES][SUITE_PATH_BYTES];
+    report_image (*images)[PICTURES];          /* until they are written */
 } measured;
-
-static base_status run_way(const suite *s, const scene *input, const char *kernel, run_model model, unsigned edge, bool retrace,
-                           kernel_marking marking, run_result *result, base_error *err)
-{
-    run_options options = suite_run_options(s, kernel_find(kernel), model);
-    options.params.cull_backface = 1;
-    options.params.retrace = retrace;
-    options.params.marking = marking;
-    options.width *= edge;
-    options.height *= edge;
-    if (model == RUN_NATIVE)
-        options.error = 0;
-    return run_kernel(input, s->options->machine, &options, result, err);
-}
 
 static void take_cycles(mft_msaa_row *row, mft_msaa_way way, const run_result *r)
 {
@@ -52,26 +38,19 @@ static base_status shrink(const report_image *from, int edge, report_image *out,
     return status;
 }
 
-/* A picture of so many rays a pixel in either direction; the run is handed on if `keep` is not NULL. */
-static base_status supersample(const suite *s, const suite_scene *on, unsigned edge, run_result *keep, report_image *out, base_error *err)
+/* A picture of a run with so many rays a pixel in either direction. */
+static base_status supersampled(const run_result *r, unsigned edge, report_image *out, base_error *err)
 {
-    run_result result = {0};
     report_image large = {0};
-    base_status status = run_way(s, on->scene, "mft-primary", RUN_NATIVE, edge, false, KERNEL_MARKING_PIXEL, &result, err);
-    if (status == BASE_OK)
-        status = picture_shaded(&result, &large, err);
+    base_status status = picture_shaded(r, &large, err);
     if (status == BASE_OK)
         status = shrink(&large, (int)edge, out, err);
     report_image_destroy(&large);
-    if (keep && status == BASE_OK)
-        *keep = result;
-    else
-        run_result_destroy(&result);
     return status;
 }
 
 /* Recall and precision of the marked pixels, by the samples of all pixels. */
-static base_status judge(const suite *s, const suite_scene *on, const run_result *adaptive, const run_result *full, mft_msaa_row *row,
+static base_status judge(const suite *s, const suite_scene *on, const report_image *marks, const run_result *full, mft_msaa_row *row,
                          base_error *err)
 {
     pixel_edges *edges = NULL;
@@ -86,7 +65,7 @@ static base_status judge(const suite *s, const suite_scene *on, const run_result
                 t[j] = full->job->frame_host[p.tile].t[p.block][p.pixel];
             }
             const pixel_kind kind = pixel_edges_judge(edges, x, y, id, t);
-            const bool marked = job_msaa_marked(adaptive->job, x, y);
+            const bool marked = report_image_pixel(marks, (int)x, (int)y)[0] > 0;
             row->edges += kind == PIXEL_EDGE;
             row->edges_marked += kind == PIXEL_EDGE && marked;
             row->intersections += kind == PIXEL_INTERSECTION;
@@ -106,92 +85,117 @@ static base_status picture_of_marks(const suite *s, const run_result *r, report_
     return status;
 }
 
-/* Errors of the pictures; then they are written. */
-static base_status compare(const suite *s, const suite_scene *on, measured *m, report_image images[PICTURES], base_error *err)
+static base_status take_none(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
 {
-    report_image reference = {0};
-    base_status status = supersample(s, on, REFERENCE_EDGE, NULL, &reference, err);
+    const measured *m = user;
+    (void)s;
+    take_cycles(&m->rows[entry->scene], MFT_MSAA_NONE, result);
+    return picture_shaded(result, &m->images[entry->scene][MFT_MSAA_NONE], err);
+}
+
+static base_status take_adaptive(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
+{
+    const measured *m = user;
+    mft_msaa_row *row = &m->rows[entry->scene];
+    report_image *images = m->images[entry->scene];
+    take_cycles(row, MFT_MSAA_ADAPTIVE, result);
+    row->marked = (double)result->counts.n[KERNEL_pixels_marked];
+    row->silhouettes = (double)result->counts.n[KERNEL_silhouettes];
+    row->edge_tests = (double)result->counts.n[KERNEL_edge_tests];
+    base_status status = picture_shaded(result, &images[MFT_MSAA_ADAPTIVE], err);
+    return status == BASE_OK ? picture_of_marks(s, result, &images[MFT_MSAA_WAYS], err) : status;
+}
+
+static base_status take_marking(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
+{
+    const measured *m = user;
+    (void)s;
+    (void)err;
+    m->rows[entry->scene].marking_cycles = (double)result->cycles;
+    return BASE_OK;
+}
+
+static base_status take_blocks(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
+{
+    const measured *m = user;
+    (void)s;
+    (void)err;
+    m->rows[entry->scene].marked_by_blocks = (double)result->counts.n[KERNEL_pixels_marked];
+    return BASE_OK;
+}
+
+static base_status take_full_cycles(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
+{
+    const measured *m = user;
+    (void)s;
+    (void)err;
+    take_cycles(&m->rows[entry->scene], MFT_MSAA_FULL, result);
+    return BASE_OK;
+}
+
+/* The samples of all pixels; the marks are there. */
+static base_status take_full(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
+{
+    const measured *m = user;
+    report_image *images = m->images[entry->scene];
+    base_status status = supersampled(result, SAMPLES_EDGE, &images[MFT_MSAA_FULL], err);
+    return status == BASE_OK ? judge(s, &s->scenes[entry->scene], &images[MFT_MSAA_WAYS], result, &m->rows[entry->scene], err) : status;
+}
+
+/* Errors of the pictures, which are all there; then they are written. */
+static base_status take_reference(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
+{
+    const measured *m = user;
+    report_image reference = {0}, *images = m->images[entry->scene];
+    base_status status = supersampled(result, REFERENCE_EDGE, &reference, err);
     for (int way = 0; status == BASE_OK && way < MFT_MSAA_WAYS; way++)
-        m->rows[m->count].rmse[way] = mft_msaa_rmse(images[way].pixels, reference.pixels, 3 * (size_t)s->width * s->height);
+        m->rows[entry->scene].rmse[way] = mft_msaa_rmse(images[way].pixels, reference.pixels, 3 * (size_t)s->width * s->height);
     report_image_destroy(&reference);
     for (int i = 0; status == BASE_OK && !s->options->no_pictures && i < PICTURES; i++) {
-        suite_path(s, m->paths[m->count][i], on->stem, rests[i]);
-        status = suite_write_picture(m->paths[m->count][i], BASE_OK, &images[i], err);
+        char *path = m->paths[entry->scene][i];
+        suite_path(s, path, s->scenes[entry->scene].stem, rests[i]);
+        status = suite_write_picture(path, BASE_OK, &images[i], err);
     }
     return status;
 }
 
-static base_status measure_none(const suite *s, const suite_scene *on, mft_msaa_row *row, report_image *image, base_error *err)
-{
-    run_result result = {0};
-    base_status status = run_way(s, on->scene, "mft-primary", RUN_CORE, 1, false, KERNEL_MARKING_PIXEL, &result, err);
-    if (status == BASE_OK) {
-        take_cycles(row, MFT_MSAA_NONE, &result);
-        status = picture_shaded(&result, image, err);
-    }
-    run_result_destroy(&result);
-    return status;
-}
+/* The runs of a scene; the dear ones first, but what judges others after them. */
+static const struct {
+    const char *kernel;
+    run_model model;
+    unsigned edge; /* rays of a pixel in either direction */
+    bool retrace;
+    kernel_marking marking;
+    suite_take_fn *take;
+} ways[] = {
+    {"mft-primary", RUN_CORE, SAMPLES_EDGE, false, KERNEL_MARKING_PIXEL, take_full_cycles},
+    {"mft-msaa", RUN_CORE, 1, true, KERNEL_MARKING_PIXEL, take_adaptive},
+    {"mft-msaa", RUN_CORE, 1, false, KERNEL_MARKING_PIXEL, take_marking},
+    {"mft-primary", RUN_CORE, 1, false, KERNEL_MARKING_PIXEL, take_none},
+    {"mft-msaa", RUN_NATIVE, 1, false, KERNEL_MARKING_BLOCK, take_blocks},
+    {"mft-primary", RUN_NATIVE, SAMPLES_EDGE, false, KERNEL_MARKING_PIXEL, take_full},
+    {"mft-primary", RUN_NATIVE, REFERENCE_EDGE, false, KERNEL_MARKING_PIXEL, take_reference},
+};
+enum { WAYS = sizeof ways / sizeof *ways };
 
-/* Cycles of marking alone, and of 16 rays for all pixels; pixels marked by blocks. */
-static base_status measure_costs(const suite *s, const suite_scene *on, mft_msaa_row *row, base_error *err)
+static base_status measure_rows(suite *s, measured *m, base_error *err)
 {
-    run_result marking = {0}, full = {0}, blocks = {0};
-    base_status status = run_way(s, on->scene, "mft-msaa", RUN_CORE, 1, false, KERNEL_MARKING_PIXEL, &marking, err);
-    if (status == BASE_OK) {
-        row->marking_cycles = (double)marking.cycles;
-        status = run_way(s, on->scene, "mft-msaa", RUN_NATIVE, 1, false, KERNEL_MARKING_BLOCK, &blocks, err);
+    suite_runs runs = {0};
+    for (size_t i = 0; i < s->scene_count * WAYS; i++) {
+        const size_t way = i / s->scene_count;
+        run_options options = suite_run_options(s, kernel_find(ways[way].kernel), ways[way].model);
+        options.params.cull_backface = 1;
+        options.params.retrace = ways[way].retrace;
+        options.params.marking = ways[way].marking;
+        options.width *= ways[way].edge;
+        options.height *= ways[way].edge;
+        suite_runs_add(&runs, (suite_run_entry){.scene = i % s->scene_count, .options = options, .take = ways[way].take});
     }
-    if (status == BASE_OK) {
-        row->marked_by_blocks = (double)blocks.counts.n[KERNEL_pixels_marked];
-        status = run_way(s, on->scene, "mft-primary", RUN_CORE, SAMPLES_EDGE, false, KERNEL_MARKING_PIXEL, &full, err);
+    base_status status = suite_runs_take(s, &runs, m, err);
+    for (size_t n = 0; status == BASE_OK && n < s->scene_count; n++) {
+        m->rows[n].scene = s->scenes[n].name;
+        m->rows[n].pixels = (double)s->width * s->height;
     }
-    if (status == BASE_OK)
-        take_cycles(row, MFT_MSAA_FULL, &full);
-    run_result_destroy(&marking);
-    run_result_destroy(&blocks);
-    run_result_destroy(&full);
-    return status;
-}
-
-static base_status measure_adaptive(const suite *s, const suite_scene *on, mft_msaa_row *row, report_image images[PICTURES], base_error *err)
-{
-    run_result adaptive = {0}, full = {0};
-    base_status status = run_way(s, on->scene, "mft-msaa", RUN_CORE, 1, true, KERNEL_MARKING_PIXEL, &adaptive, err);
-    if (status == BASE_OK) {
-        take_cycles(row, MFT_MSAA_ADAPTIVE, &adaptive);
-        row->marked = (double)adaptive.counts.n[KERNEL_pixels_marked];
-        row->silhouettes = (double)adaptive.counts.n[KERNEL_silhouettes];
-        row->edge_tests = (double)adaptive.counts.n[KERNEL_edge_tests];
-        status = picture_shaded(&adaptive, &images[MFT_MSAA_ADAPTIVE], err);
-    }
-    if (status == BASE_OK)
-        status = picture_of_marks(s, &adaptive, &images[MFT_MSAA_WAYS], err);
-    if (status == BASE_OK)
-        status = supersample(s, on, SAMPLES_EDGE, &full, &images[MFT_MSAA_FULL], err);
-    if (status == BASE_OK)
-        status = judge(s, on, &adaptive, &full, row, err);
-    run_result_destroy(&adaptive);
-    run_result_destroy(&full);
-    return status;
-}
-
-static base_status measure_scene(suite *s, const suite_scene *on, void *user, base_error *err)
-{
-    measured *m = user;
-    report_image images[PICTURES] = {{0}};
-    mft_msaa_row *row = &m->rows[m->count];
-    *row = (mft_msaa_row){.scene = on->name, .pixels = (double)s->width * s->height};
-    base_status status = measure_none(s, on, row, &images[MFT_MSAA_NONE], err);
-    if (status == BASE_OK)
-        status = measure_adaptive(s, on, row, images, err);
-    if (status == BASE_OK)
-        status = measure_costs(s, on, row, err);
-    if (status == BASE_OK)
-        status = compare(s, on, m, images, err);
-    for (int i = 0; i < PICTURES; i++)
-        report_image_destroy(&images[i]);
-    m->count++;
     return status;
 }
 
@@ -199,7 +203,7 @@ static base_status add_pictures(suite *s, const measured *m, base_error *err)
 {
     base_status status = BASE_OK;
     report_page_add_heading(s->page, 1, "Pictures");
-    for (size_t i = 0; status == BASE_OK && i < m->count; i++) {
+    for (size_t i = 0; status == BASE_OK && i < s->scene_count; i++) {
         report_figure figures[PICTURES];
         for (int p = 0; p < PICTURES; p++)
             figures[p] = (report_figure){m->paths[i][p], p < MFT_MSAA_WAYS ? "rendered picture" : "mask of pixels", captions[p]};
@@ -214,11 +218,11 @@ static base_status add_results(suite *s, const measured *m, base_error *err)
     char caption[200];
     snprintf(caption, sizeof caption, "%ux%u pixels, machine %s, core model, %u threads; kernel mft-msaa, back faces culled.", s->width,
              s->height, s->options->machine->name, s->options->machine->threads);
-    base_status status = suite_add_table(s, "", mft_msaa_marked(m->rows, m->count, caption), err);
+    base_status status = suite_add_table(s, "", mft_msaa_marked(m->rows, s->scene_count, caption), err);
     if (status == BASE_OK)
-        status = suite_add_table(s, "-cycles", mft_msaa_cycles(m->rows, m->count, caption), err);
+        status = suite_add_table(s, "-cycles", mft_msaa_cycles(m->rows, s->scene_count, caption), err);
     if (status == BASE_OK)
-        status = suite_add_table(s, "-errors", mft_msaa_errors(m->rows, m->count, caption), err);
+        status = suite_add_table(s, "-errors", mft_msaa_errors(m->rows, s->scene_count, caption), err);
     return status == BASE_OK && !s->options->no_pictures ? add_pictures(s, m, err) : status;
 }
 
@@ -227,14 +231,18 @@ static base_status measure(suite *s, base_error *err)
     if (s->width > JOB_MAX_SIZE / REFERENCE_EDGE || s->height > JOB_MAX_SIZE / REFERENCE_EDGE)
         return base_fail(err, BASE_ERR_USAGE, "--size", "%ux%u: this suite traces %d times as many pixels in either direction, at most %u",
                          s->width, s->height, REFERENCE_EDGE, JOB_MAX_SIZE);
-    measured m = {.rows = calloc(s->scene_count, sizeof *m.rows), .paths = calloc(s->scene_count, sizeof *m.paths)};
-    base_status status = m.rows && m.paths ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
+    measured m = {.rows = calloc(s->scene_count, sizeof *m.rows), .paths = calloc(s->scene_count, sizeof *m.paths),
+                  .images = calloc(s->scene_count, sizeof *m.images)};
+    base_status status = m.rows && m.paths && m.images ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
     if (status == BASE_OK)
-        status = suite_each_scene(s, measure_scene, &m, err);
+        status = measure_rows(s, &m, err);
     if (status == BASE_OK)
         status = add_results(s, &m, err);
+    for (size_t i = 0; m.images && i < s->scene_count * PICTURES; i++)
+        report_image_destroy(&m.images[i / PICTURES][i % PICTURES]);
     free(m.rows);
     free(m.paths);
+    free(m.images);
     return status;
 }
 

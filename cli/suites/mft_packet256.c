@@ -7,41 +7,48 @@
 
 enum { KINDS = 2 }; /* primary rays, soft shadows */
 
+/* What a row compares. */
+typedef enum tracer { PACKET16, PACKET256, FRUSTA } tracer;
+
+typedef struct way {
+    const char *kernel;
+    mft_algorithm algorithm; /* as the row's */
+    size_t kind;
+    tracer tracer;
+} way;
+
+static const way dearest_first[] = {
+    {"packet16-soft", MFT_S_PACKET, 1, PACKET16},    {"packet256-soft", MFT_S_PACKET, 1, PACKET256},    {"mft-soft", MFT_S_FRUSTA, 1, FRUSTA},
+    {"packet16-primary", MFT_P_PACKET, 0, PACKET16}, {"packet256-primary", MFT_P_PACKET, 0, PACKET256}, {"mft-primary", MFT_P_FRUSTA, 0, FRUSTA},
+};
+enum { WAYS = sizeof dearest_first / sizeof *dearest_first };
+
 typedef struct measured {
-    mft_packet256_row *rows;
+    mft_packet256_row *rows; /* by scene, then by kind */
     size_t count;
 } measured;
 
-/* A kernel's run as a row; `boxes` if it tests them for groups of packets. */
-static base_status measure_kernel(const suite *s, const suite_scene *on, const char *kernel, mft_algorithm algorithm, mft_row *row,
-                                  double *boxes, base_error *err)
+/* Packets of 256 test boxes for groups of packets. */
+static base_status take_way(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
 {
-    run_result result = {0};
-    const run_options options = mft_kernel_options(s, kernel);
-    base_status status = run_kernel(on->scene, s->options->machine, &options, &result, err);
-    if (status == BASE_OK)
-        *row = mft_row_of(&result, on->name, algorithm);
-    if (status == BASE_OK && boxes)
-        *boxes = (double)result.counts.n[KERNEL_aabb_group_tests];
-    run_result_destroy(&result);
-    return status;
+    const measured *m = user;
+    const way *w = &dearest_first[entry->row];
+    mft_packet256_row *row = &m->rows[entry->scene * KINDS + w->kind];
+    mft_row *const of_row[] = {[PACKET16] = &row->packet16, [PACKET256] = &row->packet256, [FRUSTA] = &row->frusta};
+    (void)err;
+    *of_row[w->tracer] = mft_row_of(result, s->scenes[entry->scene].name, w->algorithm);
+    if (w->tracer == PACKET256)
+        row->boxes = (double)result->counts.n[KERNEL_aabb_group_tests];
+    return BASE_OK;
 }
 
-static base_status measure_scene(suite *s, const suite_scene *on, void *user, base_error *err)
+static base_status measure_rows(suite *s, measured *m, base_error *err)
 {
-    static const char *const large[KINDS] = {"packet256-primary", "packet256-soft"};
-    static const mft_algorithm packets[KINDS] = {MFT_P_PACKET, MFT_S_PACKET}, frusta[KINDS] = {MFT_P_FRUSTA, MFT_S_FRUSTA};
-    measured *m = user;
-    base_status status = BASE_OK;
-    for (int kind = 0; status == BASE_OK && kind < KINDS; kind++) {
-        mft_packet256_row *row = &m->rows[m->count++];
-        status = measure_kernel(s, on, mft_kernel(packets[kind]), packets[kind], &row->packet16, NULL, err);
-        if (status == BASE_OK)
-            status = measure_kernel(s, on, large[kind], packets[kind], &row->packet256, &row->boxes, err);
-        if (status == BASE_OK)
-            status = measure_kernel(s, on, mft_kernel(frusta[kind]), frusta[kind], &row->frusta, NULL, err);
-    }
-    return status;
+    suite_runs runs = {0};
+    for (size_t i = 0; i < WAYS; i++)
+        for (size_t n = 0; n < s->scene_count; n++)
+            suite_runs_add(&runs, (suite_run_entry){.scene = n, .row = i, .options = mft_kernel_options(s, dearest_first[i].kernel), .take = take_way});
+    return suite_runs_take(s, &runs, m, err);
 }
 
 static base_status add_results(suite *s, const measured *m, base_error *err)
@@ -57,10 +64,11 @@ static base_status add_results(suite *s, const measured *m, base_error *err)
 
 static base_status measure(suite *s, base_error *err)
 {
-    measured m = {.rows = calloc(s->scene_count * KINDS, sizeof *m.rows)};
+    const size_t count = s->scene_count * KINDS;
+    measured m = {.rows = calloc(count, sizeof *m.rows), .count = count};
     base_status status = m.rows ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
     if (status == BASE_OK)
-        status = suite_each_scene(s, measure_scene, &m, err);
+        status = measure_rows(s, &m, err);
     if (status == BASE_OK)
         status = add_results(s, &m, err);
     free(m.rows);

@@ -11,8 +11,7 @@ enum { MACHINES = 4, MACHINE_NAME_BYTES = 60 };
 typedef struct measured {
     suite_machine machines[MACHINES];
     char names[MACHINES][MACHINE_NAME_BYTES];
-    mft_events *events;
-    size_t count;
+    mft_events *events; /* by scene, then by machine, then by algorithm */
 } measured;
 
 /* Which phases of a kernel are charged to which event. */
@@ -31,19 +30,25 @@ static mft_events events_of(const run_result *r, size_t machine, mft_algorithm a
     };
 }
 
-static base_status measure_scene(suite *s, const suite_scene *on, void *user, base_error *err)
+static base_status take_events(const suite *s, const suite_run_entry *entry, const run_result *result, void *user, base_error *err)
 {
-    measured *m = user;
-    base_status status = BASE_OK;
-    for (size_t machine = 0; machine < MACHINES; machine++)
-        for (int a = 0; status == BASE_OK && a < mft_algorithms_measured(); a++) {
-            run_result result = {0};
-            status = mft_run(s, on->scene, (mft_algorithm)a, m->machines[machine].machine, &result, err);
-            if (status == BASE_OK)
-                m->events[m->count++] = events_of(&result, machine, (mft_algorithm)a, on->name);
-            run_result_destroy(&result);
-        }
-    return status;
+    const measured *m = user;
+    const size_t algorithms = (size_t)mft_algorithms_measured();
+    (void)err;
+    m->events[entry->row] = events_of(result, entry->row / algorithms % MACHINES, (mft_algorithm)(entry->row % algorithms),
+                                      s->scenes[entry->scene].name);
+    return BASE_OK;
+}
+
+static base_status measure_events(suite *s, measured *m, base_error *err)
+{
+    const size_t algorithms = (size_t)mft_algorithms_measured();
+    suite_runs runs = {0};
+    for (size_t a = algorithms; a-- > 0;)
+        for (size_t i = 0; i < s->scene_count * MACHINES; i++)
+            suite_runs_add(&runs, (suite_run_entry){.scene = i / MACHINES, .row = i * algorithms + a, .machine = m->machines[i % MACHINES].machine,
+                                                    .options = mft_run_options(s, (mft_algorithm)a), .take = take_events});
+    return suite_runs_take(s, &runs, m, err);
 }
 
 static base_status make_machines(const suite *s, measured *m, base_error *err)
@@ -72,7 +77,8 @@ static base_status add_plot(suite *s, const mft_measured *m, base_error *err)
 static base_status add_results(suite *s, const measured *found, base_error *err)
 {
     const char *const names[MACHINES] = {found->names[0], found->names[1], found->names[2], found->names[3]};
-    const mft_measured m = {names, MACHINES, found->events, found->count, (size_t)mft_algorithms_measured()};
+    const mft_measured m = {names, MACHINES, found->events, s->scene_count * MACHINES * (size_t)mft_algorithms_measured(),
+                            (size_t)mft_algorithms_measured()};
     char caption[SUITE_CHANGED_BYTES + 240];
     snprintf(caption, sizeof caption, "Costs measured at %ux%u pixels on %zu scene%s, machine %s, core model. No cache misses: %s.",
              s->width, s->height, s->scene_count, s->scene_count == 1 ? "" : "s", s->options->machine->name, found->machines[2].changed);
@@ -96,7 +102,7 @@ static base_status measure(suite *s, base_error *err)
     measured m = {.events = calloc(s->scene_count * MACHINES * MFT_ALGORITHMS, sizeof *m.events)};
     base_status status = m.events ? make_machines(s, &m, err) : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
     if (status == BASE_OK)
-        status = suite_each_scene(s, measure_scene, &m, err);
+        status = measure_events(s, &m, err);
     if (status == BASE_OK)
         status = add_results(s, &m, err);
     for (int i = 0; i < MACHINES; i++)

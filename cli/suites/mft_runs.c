@@ -32,12 +32,6 @@ run_options mft_run_options(const suite *s, mft_algorithm algorithm)
     return mft_kernel_options(s, mft_kernel(algorithm));
 }
 
-base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err)
-{
-    const run_options options = mft_run_options(s, algorithm);
-    return run_kernel(input, machine, &options, result, err);
-}
-
 uint64_t mft_cycles(const run_result *result) { return result->cycles - result->core.phase[KERNEL_PHASE_FILTER]; }
 
 mft_row mft_row_of(const run_result *result, const char *scene_name, mft_algorithm algorithm)

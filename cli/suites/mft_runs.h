@@ -1,8 +1,8 @@
-/* What the suites of the MFT paper share: its algorithms as kernels, run as the paper ran them. */
+/* What the suites of the MFT paper share: its algorithms as kernels, run as the paper ran them, and their rows. */
 #ifndef CLI_SUITES_MFT_RUNS_H
 #define CLI_SUITES_MFT_RUNS_H
 
-#include "cli/suite.h"
+#include "cli/suite_runs.h"
 #include "reports/views/mft_table1.h"
 
 /** How many algorithms have a kernel in this program: the first so many of mft_algorithm, packets and frusta in pairs. */
@@ -20,13 +20,6 @@ run_options mft_kernel_options(const suite *s, const char *kernel);
 
 /** The same of an algorithm's kernel. */
 run_options mft_run_options(const suite *s, mft_algorithm algorithm);
-
-/**
- * Run an algorithm in the core model with back faces culled, as the paper did (MFT 5).
- *
- * @param result  destroy with run_result_destroy, also after a failure
- */
-base_status mft_run(const suite *s, const scene *input, mft_algorithm algorithm, const sim_machine *machine, run_result *result, base_error *err);
 
 /** Cycles of a run without those of the filter, which the paper reports apart. */
 uint64_t mft_cycles(const run_result *result);

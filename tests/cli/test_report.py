@@ -154,6 +154,29 @@ def mft_table1__own_scene__sampled(folder):
     return None
 
 
+def files_of(out):
+    return {name: open(out + '/' + name, 'rb').read() for name in sorted(os.listdir(out))}
+
+
+def runs_side_by_side__any_jobs__same_bytes(folder):
+    pictures = [] if HAVE_IMAGES else ['--no-pictures']
+    scenes = ['--scene', 'builtin:rooms-804', '--scene', 'builtin:hall-60k', *pictures]
+    for suite, *words in (('mft-table1', '--size', '32x24'), ('mft-table1', '--size', '96x96', '--error', '0.2'), ('mft-msaa', '--size', '24x16')):
+        outs = ['%s/%s-%d-%s' % (folder, suite, len(words), jobs) for jobs in '13']
+        results = [run('report', suite, *scenes, *words, '--jobs', out[-1], '--out', out) for out in outs]
+        assert all(result.returncode == 0 for result in results), results[0].stderr + results[1].stderr
+        assert results[0].stdout == results[1].stdout and files_of(outs[0]) == files_of(outs[1]), suite
+
+
+def runs_side_by_side__one_fails__one_line_and_no_files(folder):
+    out = folder + '/out'
+    for jobs in '13':
+        words = ['report', 'mft-table1', '--scene', 'builtin:rooms-804', '--size', '16x16', '--jobs', jobs, '--out', out]
+        fails([*words, '--error', '0.1', '--set', 'cores=2'], 'cores')
+        fails([*words, '--scene', folder + '/missing.glb'], 'missing.glb')
+        assert os.listdir(out) == []
+
+
 TABLE2 = 'MFT Table 2: shadow rays only, measured, and published by Benthin and Wald 2009'
 
 
