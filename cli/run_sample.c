@@ -186,7 +186,7 @@ static base_status measure_round(sampled_run *r, base_error *err)
     return BASE_OK;
 }
 
-/* The warmer is a pass over all tiles, whose events go to it as they are recorded. */
+/* The warmer is a pass over all tiles, whose accesses to memory go to it as they are traced. */
 typedef struct warm_pass {
     sim_warmer *warmer;
     unsigned thread;
@@ -211,7 +211,7 @@ static void warm_all(sampled_run *r, warm_pass *pass, lrb_ctx *ctx)
         const uint64_t before = pass->lines;
         pass->thread = (unsigned)(tile % result->machine->threads);
         lrb_ctx_begin(ctx);
-        result->options.kernel->tile[LRB_RECORD](ctx, result->job, (uint32_t)tile, &counts);
+        result->options.kernel->tile[LRB_TOUCH](ctx, result->job, (uint32_t)tile, &counts);
         lrb_ctx_end(ctx);
         r->unit_lines[tile / RUN_SAMPLE_UNIT] += (double)(pass->lines - before);
     }

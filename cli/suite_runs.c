@@ -6,8 +6,9 @@
 #include "cli/progress.h"
 #include "lrbni/base/parallel.h"
 
-/* Results that wait for their turn hold frames and trees: no run begins before the one so many places ahead of it, a host thread, is taken. */
-enum { AHEAD = 4 };
+/* Results that wait for their turn hold frames and trees, so that there may not be many: of so many runs a host thread the first is taken
+   before another one begins. */
+enum { AHEAD = 2 };
 
 typedef struct outcome {
     bool ended;

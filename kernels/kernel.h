@@ -1,6 +1,6 @@
 /* What a kernel is: a function from a tile number to pixels, counters and events, with a name and parameters.
  *
- * A kernel's source is compiled once per level (lrbni/ctx.h); its descriptor in registry.c holds the three functions.
+ * A kernel's source is compiled once per level (lrbni/ctx.h); its descriptor in registry.c holds the functions.
  * Tiles are independent: any order, any host thread, the same results. Those of a second pass (kernel_job_first_pass) come after
  * all of the first.
  */
@@ -69,6 +69,8 @@ enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, 
 #define KERNEL_TILE_FN(name) name##_native
 #elif defined(LRB_LEVEL) && LRB_LEVEL == 1
 #define KERNEL_TILE_FN(name) name##_count
+#elif defined(LRB_LEVEL) && LRB_LEVEL == 3
+#define KERNEL_TILE_FN(name) name##_touch
 #elif defined(LRB_ANNOTATED)
 #define KERNEL_TILE_FN(name) name##_annotated
 #elif defined(LRB_LEVEL) && LRB_LEVEL == 2

@@ -4,8 +4,8 @@
 
 const char *const kernel_phase_names[KERNEL_PHASE_COUNT] = {"setup", "traversal", "culling", "intersection", "shading", "entry search", "filter", "silhouettes"};
 
-/* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count, mft_primary_record and mft_primary_annotated */
-#define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record, name##_annotated
+/* KERNEL_TILES(mft_primary): declares mft_primary_native, mft_primary_count, mft_primary_record, mft_primary_touch and mft_primary_annotated */
+#define KERNEL_TILES(name) extern kernel_tile_fn name##_native, name##_count, name##_record, name##_touch, name##_annotated
 KERNEL_TILES(packet16_primary);
 KERNEL_TILES(packet256_primary);
 KERNEL_TILES(mft_primary);
@@ -60,7 +60,7 @@ const kernel_info *kernel_list(size_t *count)
             .counters = tracing_counters | BIT(units_packets),
             .params = tracing_params,
             .phases = tracing_phases,
-            .tile = {packet16_primary_native, packet16_primary_count, packet16_primary_record},
+            .tile = {packet16_primary_native, packet16_primary_count, packet16_primary_record, packet16_primary_touch},
             .annotated = packet16_primary_annotated,
         },
         {
@@ -71,7 +71,7 @@ const kernel_info *kernel_list(size_t *count)
             .counters = tracing_counters | BIT(aabb_group_tests) | BIT(units_groups) | BIT(units_packets),
             .params = tracing_params,
             .phases = tracing_phases,
-            .tile = {packet256_primary_native, packet256_primary_count, packet256_primary_record},
+            .tile = {packet256_primary_native, packet256_primary_count, packet256_primary_record, packet256_primary_touch},
             .annotated = packet256_primary_annotated,
         },
         {
@@ -82,7 +82,7 @@ const kernel_info *kernel_list(size_t *count)
             .counters = tracing_counters | BIT(units_groups) | BIT(units_frusta),
             .params = tracing_params,
             .phases = tracing_phases,
-            .tile = {mft_primary_native, mft_primary_count, mft_primary_record},
+            .tile = {mft_primary_native, mft_primary_count, mft_primary_record, mft_primary_touch},
             .annotated = mft_primary_annotated,
         },
         {
@@ -93,7 +93,7 @@ const kernel_info *kernel_list(size_t *count)
             .counters = tracing_counters | BIT(rays_shadow) | BIT(units_packets) | BIT(units_shadow_packets),
             .params = tracing_params | soft_params,
             .phases = tracing_phases | soft_phases,
-            .tile = {packet16_soft_native, packet16_soft_count, packet16_soft_record},
+            .tile = {packet16_soft_native, packet16_soft_count, packet16_soft_record, packet16_soft_touch},
             .annotated = packet16_soft_annotated,
         },
         {
@@ -105,7 +105,7 @@ const kernel_info *kernel_list(size_t *count)
                         BIT(units_shadow_groups) | BIT(units_shadow_packets),
             .params = tracing_params | soft_params,
             .phases = tracing_phases | soft_phases,
-            .tile = {packet256_soft_native, packet256_soft_count, packet256_soft_record},
+            .tile = {packet256_soft_native, packet256_soft_count, packet256_soft_record, packet256_soft_touch},
             .annotated = packet256_soft_annotated,
         },
         {
@@ -117,7 +117,7 @@ const kernel_info *kernel_list(size_t *count)
                         BIT(units_frusta) | BIT(units_shadow_groups) | BIT(units_shadow_frusta),
             .params = tracing_params | soft_params | PARAM(SHRINK),
             .phases = tracing_phases | soft_phases,
-            .tile = {mft_soft_native, mft_soft_count, mft_soft_record},
+            .tile = {mft_soft_native, mft_soft_count, mft_soft_record, mft_soft_touch},
             .annotated = mft_soft_annotated,
         },
         {
@@ -129,7 +129,7 @@ const kernel_info *kernel_list(size_t *count)
                         BIT(units_frusta) | BIT(units_msaa_groups) | BIT(units_msaa_frusta),
             .params = tracing_params | PARAM(MARKING) | PARAM(RETRACE),
             .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_SILHOUETTES,
-            .tile = {mft_msaa_native, mft_msaa_count, mft_msaa_record},
+            .tile = {mft_msaa_native, mft_msaa_count, mft_msaa_record, mft_msaa_touch},
             .annotated = mft_msaa_annotated,
         },
         {
@@ -141,7 +141,7 @@ const kernel_info *kernel_list(size_t *count)
             .counters = kdtree_counters,
             .params = kdtree_params,
             .phases = tracing_phases,
-            .tile = {kd16_primary_native, kd16_primary_count, kd16_primary_record},
+            .tile = {kd16_primary_native, kd16_primary_count, kd16_primary_record, kd16_primary_touch},
             .annotated = kd16_primary_annotated,
         },
         {
@@ -153,7 +153,7 @@ const kernel_info *kernel_list(size_t *count)
             .counters = kdtree_counters | BIT(rays_shadow) | BIT(units_hard_packets),
             .params = kdtree_params | PARAM(SHADOW_PACKETS),
             .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_SHADING,
-            .tile = {kd16_shadow_native, kd16_shadow_count, kd16_shadow_record},
+            .tile = {kd16_shadow_native, kd16_shadow_count, kd16_shadow_record, kd16_shadow_touch},
             .annotated = kd16_shadow_annotated,
         },
         {
@@ -165,7 +165,7 @@ const kernel_info *kernel_list(size_t *count)
             .counters = kdtree_counters | entry_counters,
             .params = kdtree_params | entry_params,
             .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_ENTRY,
-            .tile = {mlrta_primary_native, mlrta_primary_count, mlrta_primary_record},
+            .tile = {mlrta_primary_native, mlrta_primary_count, mlrta_primary_record, mlrta_primary_touch},
             .annotated = mlrta_primary_annotated,
         },
         {
@@ -178,7 +178,7 @@ const kernel_info *kernel_list(size_t *count)
             .counters = kdtree_counters | entry_counters | BIT(rays_shadow) | BIT(units_hard_packets),
             .params = kdtree_params | entry_params | PARAM(SHADOW_PACKETS),
             .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_ENTRY | UINT64_C(1) << KERNEL_PHASE_SHADING,
-            .tile = {mlrta_shadow_native, mlrta_shadow_count, mlrta_shadow_record},
+            .tile = {mlrta_shadow_native, mlrta_shadow_count, mlrta_shadow_record, mlrta_shadow_touch},
             .annotated = mlrta_shadow_annotated,
         },
     };

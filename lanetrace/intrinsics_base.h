@@ -6,6 +6,9 @@
 #ifndef LRB_LEVEL
 #define LRB_LEVEL 2
 #endif
+#if LRB_LEVEL > 2
+#error "LRB_LEVEL is 0, 1 or 2: a session does not take the accesses to memory alone"
+#endif
 #ifndef LRB_SOURCE
 #define LRB_SOURCE 1
 #endif

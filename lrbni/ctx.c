@@ -91,6 +91,13 @@ uint32_t lrb_put(lrb_ctx *c, uint64_t what, uint32_t s0, uint32_t s1, uint32_t s
     return id;
 }
 
+void lrb_put_touch(lrb_ctx *c, uint64_t what)
+{
+    lrb_event *e = c->free_event;
+    *e = (lrb_event){.op = (uint16_t)(what >> 32), .mask = (uint16_t)(what >> 48), .aux = (uint32_t)what};
+    put(c, e);
+}
+
 static void mark_far(lrb_ctx *c, uint32_t source, uint32_t from)
 {
     if (from && c->next_event - from >= LRB_FAR)

@@ -14,7 +14,8 @@
 #define LRB_NATIVE 0 /* nothing: the host runs the lanes alone */
 #define LRB_COUNT 1  /* a histogram of ops, and the idle lanes */
 #define LRB_RECORD 2 /* events with dependences */
-#define LRB_LEVELS 3
+#define LRB_TOUCH 3  /* of these the ones that access memory, and hints, without dependences: what caches see of a kernel */
+#define LRB_LEVELS 4
 
 #define LRB_BATCH 1024u /* events handed to the sink at a time */
 
@@ -26,7 +27,7 @@ typedef struct lrb_ctx {
     uint64_t memory_operands; /* ops whose last source was in memory; loads and stores apart */
     uint64_t idle_lanes;      /* lanes switched off by masks, summed over vector ops */
 
-    /* LRB_RECORD */
+    /* LRB_RECORD, and from free_event on LRB_TOUCH */
     uint32_t next_event; /* id of the next op's event; ids of a tile start at LRB_FAR; fewer than 2^32 ops a tile */
     uint32_t line;       /* LRB_ANNOTATED (lrbni/annotate.h): source and line of the last op; 0: none yet */
     lrb_event *free_event; /* where in the batch the next event goes; markers have a place there, but no id */
@@ -41,7 +42,7 @@ typedef struct lrb_ctx {
 /**
  * A context; free it with lrb_ctx_destroy.
  *
- * @param sink  receives the events of kernels at LRB_RECORD; NULL drops them
+ * @param sink  receives the events of kernels at LRB_RECORD or LRB_TOUCH; NULL drops them
  * @param user  passed to the sink
  *
  * Errors: BASE_ERR_NOMEM.
@@ -69,6 +70,9 @@ void lrb_ctx_end(lrb_ctx *c);
  * Returns the event's id.
  */
 uint32_t lrb_put(lrb_ctx *c, uint64_t what, uint32_t s0, uint32_t s1, uint32_t s2, uint32_t s3);
+
+/** Put the event of an op that touches memory into the stream of a kernel at LRB_TOUCH; `what` as of lrb_put. */
+void lrb_put_touch(lrb_ctx *c, uint64_t what);
 
 /** lrb_put, with a marker before it for each source that is too far back for the event (lrbni/annotate.h). */
 uint32_t lrb_put_far(lrb_ctx *c, uint64_t what, uint32_t s0, uint32_t s1, uint32_t s2, uint32_t s3);

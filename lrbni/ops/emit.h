@@ -16,6 +16,22 @@ LRB_INLINE void lrb_mark(lrb_ctx *c, lrb_op_id marker, uint32_t number)
 #endif
 }
 
+#if LRB_LEVEL == LRB_TOUCH
+/* Whether an op tells an address to the caches; known when the op is compiled. */
+LRB_INLINE bool lrb_touches(unsigned op, unsigned form)
+{
+    static const uint8_t access[LRB_SHAPE_COUNT] = {
+#define SHAPE(name, access, reads, sentence) LRB_ACCESS_##access,
+#include "lrbni/shapes.def"
+    };
+    static const uint8_t shape[LRB_OP_COUNT] = {
+#define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) LRB_SHAPE_##shape,
+#include "lrbni/ops.def"
+    };
+    return form & LRB_FORM_MEMORY || access[shape[op]] != LRB_ACCESS_NONE;
+}
+#endif
+
 /* Tell the context of one op and return the event's id; sources are the ids of the events that made them. */
 LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t mask, uint32_t s0, uint32_t s1, uint32_t s2,
                              uint32_t s3, uint32_t aux)
@@ -28,7 +44,10 @@ LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t ma
     return lrb_put(c, what, s0, s1, s2, s3);
 #endif
 #else
-#if LRB_LEVEL == LRB_COUNT
+#if LRB_LEVEL == LRB_TOUCH
+    if (lrb_touches(op, form))
+        lrb_put_touch(c, (uint64_t)mask << 48 | (uint64_t)(op | form) << 32 | aux);
+#elif LRB_LEVEL == LRB_COUNT
     c->ops[op]++;
     c->memory_operands += form & LRB_FORM_MEMORY ? 1 : 0;
 #else

@@ -449,9 +449,9 @@ static void mlrta__levels_and_threads__same_results(void **state)
     for (int k = 0; k < 4; k++) {
         kernel_params p = kernel_find(names[k])->defaults;
         p.its = k % 2; /* 32 */
-        trace_picture got[4];
-        for (int i = 0; i < 4; i++) {
-            static const int levels[4] = {LRB_NATIVE, LRB_COUNT, LRB_RECORD, LRB_RECORD};
+        trace_picture got[5];
+        for (int i = 0; i < 5; i++) {
+            static const int levels[5] = {LRB_NATIVE, LRB_COUNT, LRB_RECORD, LRB_RECORD, LRB_TOUCH};
             trace_request request = {.kernel = names[k], .kdtree = st.kdtree, .camera = &st.s->cameras[0], .width = 75, .height = 70,
                                      .params = &p, .light = &st.s->light, .level = levels[i], .jobs = i == 3 ? 3 : 1};
             got[i] = trace_run(&request);
@@ -462,7 +462,7 @@ static void mlrta__levels_and_threads__same_results(void **state)
             assert_true(got[1].ops[op] == got[2].ops[op] || lrb_op_kind_of((lrb_op_id)op) == LRB_KIND_MARKER);
         assert_int_equal(got[1].idle_lanes, got[2].idle_lanes);
         assert_int_equal(got[2].events_hash, got[3].events_hash);
-        for (int i = 0; i < 4; i++)
+        for (int i = 0; i < 5; i++)
             trace_free(&got[i]);
     }
     stage_destroy(&st);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lrbni/base/hash.h"
 #include "scene/builtin.h"
 #include "tests/kernels/trace.h"
 
@@ -58,7 +59,7 @@ static void levels__all__same_pictures_and_counts(void **state)
     for (int kernel = 0; kernel < KERNELS; kernel++)
         for (unsigned cull = 0; cull < 2; cull++) {
             trace_picture native = picture(*state, kernel, cull, LRB_NATIVE, 1);
-            for (int level = LRB_COUNT; level <= LRB_RECORD; level++) {
+            for (int level = LRB_COUNT; level < LRB_LEVELS; level++) {
                 trace_picture other = picture(*state, kernel, cull, level, 1);
                 trace_assert_equal(&native, &other, kernel_names[kernel]);
                 assert_memory_equal(&native.counts, &other.counts, sizeof native.counts);
@@ -106,7 +107,7 @@ static void levels__count_and_record__same_histogram(void **state)
 static void levels__host_threads__same_everything(void **state)
 {
     for (int kernel = 0; kernel < KERNELS; kernel++)
-        for (int level = LRB_NATIVE; level <= LRB_RECORD; level++) {
+        for (int level = LRB_NATIVE; level < LRB_LEVELS; level++) {
             trace_picture one = picture(*state, kernel, 0, level, 1), three = picture(*state, kernel, 0, level, 3);
             trace_assert_equal(&one, &three, kernel_names[kernel]);
             assert_memory_equal(&one.counts, &three.counts, sizeof one.counts);
@@ -207,6 +208,60 @@ static void stream__every_event__sources_and_addresses_valid(void **state)
     }
 }
 
+/* ---- what caches see of a stream ---- */
+
+typedef struct touches {
+    uint64_t count, hash;
+} touches;
+
+static void add_touches(void *user, const lrb_event *events, uint32_t count)
+{
+    touches *t = user;
+    for (uint32_t i = 0; i < count; i++) {
+        const lrb_event e = {.op = events[i].op, .mask = events[i].mask, .aux = events[i].aux};
+        const lrb_shape shape = lrb_op_table[e.op & LRB_EVENT_ID].shape;
+        if (!(e.op & LRB_FORM_MEMORY) && lrb_shape_table[shape].access == LRB_ACCESS_NONE)
+            continue;
+        t->hash = base_hash(t->hash, &e, sizeof e);
+        t->count++;
+    }
+}
+
+static touches touches_of(const kernel_info *kernel, kernel_job *job, int level, uint64_t *events)
+{
+    lrb_ctx *c = NULL;
+    kernel_counts n = {{0}};
+    touches t = {.hash = BASE_HASH_START};
+    assert_int_equal(lrb_ctx_create(add_touches, &t, &c, NULL), BASE_OK);
+    *events = 0;
+    for (uint32_t tile = 0; tile < kernel_job_tiles(job); tile++) {
+        lrb_ctx_begin(c);
+        kernel->tile[level](c, job, tile, &n);
+        *events += c->next_event - LRB_FAR;
+        lrb_ctx_end(c);
+    }
+    lrb_ctx_destroy(&c);
+    return t;
+}
+
+/* The accesses of the recorded stream, one by one, and no other event. */
+static void touch__every_kernel__accesses_of_the_record(void **state)
+{
+    const fixture *f = *state;
+    for (int kernel = 0; kernel < KERNELS; kernel++) {
+        const kernel_info *info = kernel_find(kernel_names[kernel]);
+        kernel_job *job = NULL;
+        uint64_t ops, none;
+        assert_int_equal(kernel_job_create(f->tree[kernel], &f->s->cameras[0], &f->s->light, SIZE, SIZE, &info->defaults, &job, NULL), BASE_OK);
+        const touches record = touches_of(info, job, LRB_RECORD, &ops), touch = touches_of(info, job, LRB_TOUCH, &none);
+        assert_true(touch.count > 0 && touch.count < ops / 2);
+        assert_int_equal(touch.count, record.count);
+        assert_int_equal(touch.hash, record.hash);
+        assert_int_equal(none, 0); /* sources are not kept, so ops have no ids */
+        kernel_job_destroy(&job);
+    }
+}
+
 /* Tiles of a pass are independent: any order gives the same frame and the same events a tile. */
 static void tiles__any_order__same_results(void **state)
 {
@@ -249,6 +304,7 @@ int main(void)
         cmocka_unit_test(levels__count_and_record__same_histogram),
         cmocka_unit_test(levels__host_threads__same_everything),
         cmocka_unit_test(stream__every_event__sources_and_addresses_valid),
+        cmocka_unit_test(touch__every_kernel__accesses_of_the_record),
         cmocka_unit_test(tiles__any_order__same_results),
     };
     return cmocka_run_group_tests_name("levels", tests, fixture_create, fixture_destroy);

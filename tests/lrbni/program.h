@@ -27,6 +27,6 @@ typedef struct program_state {
 /* Run `size` bytes as a program. */
 typedef void program_fn(lrb_ctx *c, program_state *s, const uint8_t *code, size_t size);
 program_fn program_run_portable, program_run_avx2, program_run_avx512; /* at LRB_RECORD */
-program_fn program_run_native, program_run_count, program_run_record, program_run_annotated; /* with the back end chosen at configure time */
+program_fn program_run_native, program_run_count, program_run_record, program_run_touch, program_run_annotated; /* with the back end chosen at configure time */
 
 #endif

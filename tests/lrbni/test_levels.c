@@ -1,4 +1,4 @@
-/* The three levels of accounting: the same state after a program of every op, and the same counts from histograms and from events. */
+/* The levels of accounting: the same state after a program of every op, and the same counts from histograms and from events. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -132,6 +132,23 @@ static void count__histogram__as_the_events_of_record(void **state)
     free(count), free(record);
 }
 
+/* Of the events of record: all of ops that access memory whatever their operands, of the others those with one in memory. */
+static void touch__every_op__the_accesses_of_record(void **state)
+{
+    (void)state;
+    outcome *record = run(program_run_record, true), *touch = run(program_run_touch, true);
+    uint64_t with_operand = 0;
+    assert_true(same(record, touch));
+    for (int i = 0; i < LRB_OP_COUNT; i++) {
+        if (lrb_shape_table[lrb_op_table[i].shape].access == LRB_ACCESS_NONE)
+            with_operand += touch->ops[i];
+        else if (touch->ops[i] != record->ops[i])
+            fail_msg("%s: touched %llu, recorded %llu", lrb_op_table[i].id, (unsigned long long)touch->ops[i], (unsigned long long)record->ops[i]);
+    }
+    assert_true(with_operand == record->memory_operands && touch->memory_operands == record->memory_operands);
+    free(record), free(touch);
+}
+
 /* The operands of some calls are ops themselves, whose order is the compiler's: the streams hold the same ops. */
 static void lines__every_op__the_ops_of_record_and_markers(void **state)
 {
@@ -151,6 +168,7 @@ int main(void)
         cmocka_unit_test(levels__same_source__same_state),
         cmocka_unit_test(native__nothing_counted__zeros),
         cmocka_unit_test(count__histogram__as_the_events_of_record),
+        cmocka_unit_test(touch__every_op__the_accesses_of_record),
         cmocka_unit_test(lines__every_op__the_ops_of_record_and_markers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
