@@ -30,17 +30,33 @@ static base_status next_tile(sim_core *s, core_thread *h, const sim_core_feed *f
 }
 
 /* Results of ops that waited for their lines. */
-static __attribute__((noinline)) void need_late(const sim_core *s, const core_thread *h, sim_blamed *at)
+static __attribute__((noinline)) sim_blamed need_late(const sim_core *s, const core_thread *h, sim_blamed at)
 {
-    const lrb_event *e = h->op->event;
+    const lrb_event *e = core_event_of(h);
     const sim_op_price *p = core_price_of(s, h);
     const uint32_t next = core_number(h);
     for (unsigned i = 0; i < SIM_MAX_SOURCES; i++) {
         const uint32_t distance = e->src[i], number = next - distance;
         const core_late_result *late = &h->late[number & (s->late_window - 1)];
         if (distance > 0 && distance <= next - h->tile_first && late->number == number && late->arrival > 0)
-            sim_need(sim_blame(late->arrival + sim_time_of(late->price->latency.ready[p->consumer[i]]), late->bucket), at);
+            sim_need(sim_blame(late->arrival + sim_time_of(late->price->latency.ready[p->consumer[i]]), late->bucket), &at);
     }
+    return at;
+}
+
+/* What few ops wait for: their class, and more sources than the loop knows of. */
+static __attribute__((noinline)) sim_blamed need_more(const sim_core *s, const core_thread *h, sim_blamed at)
+{
+    const lrb_event *e = core_event_of(h);
+    const sim_op_price *p = core_price_of(s, h);
+    const uint8_t *producer = h->producer + (h->issued - h->issued_begin);
+    if (h->op->flags & CORE_MANY_SOURCES)
+        for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)
+            if (e->src[i] && e->src[i] < s->window)
+                sim_need(h->issued[-(int)e->src[i]] + s->latency[*(producer - e->src[i]) + p->consumer[i]], &at);
+    if (h->op->flags & SIM_PRICE_LASTING)
+        sim_need(s->class_free[p->class_id], &at);
+    return at;
 }
 
 /* Numbers that were just stored one by one are loaded one by one: a host's vector load would wait until they are in its cache. */
@@ -54,22 +70,21 @@ static inline sim_blamed later(sim_blamed a, sim_blamed b) { return a > b ? a : 
 
 /* When the thread's next op can issue, as far as its operands, its class and what blocks the thread are concerned. Which thread
  * issues next varies so much that the host cannot foresee what its op waits for: so sources are compared without branches. */
-static inline sim_blamed earliest(const sim_core *s, const core_thread *h, sim_blamed start)
+static inline sim_blamed earliest(const sim_core *s, const core_thread *h, const sim_blamed now, sim_blamed start)
 {
     const core_op *op = h->op;
     const sim_blamed *issued = h->issued;
-    sim_blamed ready[SIM_MAX_SOURCES];
-    for (unsigned i = 0; i < SIM_MAX_SOURCES; i++)
-        ready[i] = keep_scalar(issued[op->source[i]]) + s->latency[op->latencies >> 8 * i & 0xff];
-    sim_blamed at = later(later(later(ready[0], ready[1]), later(ready[2], ready[3])), start);
-    if (h->unsettled_until > h->now) {
-        if (h->late_until > h->now)
-            need_late(s, h, &at);
+    sim_blamed at = start;
+    for (unsigned i = 0; i < CORE_SOURCES; i++)
+        at = later(keep_scalar(issued[op->source[i]]) + s->latency[op->latency[i]], at);
+    if (h->unsettled_until > now) {
+        if (h->late_until > now)
+            at = need_late(s, h, at);
         if (op->flags & SIM_PRICE_READS)
-            sim_need_stored(h->stores, core_price_of(s, h), op->event, &at);
+            sim_need_stored(h->stores, core_price_of(s, h), core_event_of(h), &at);
     }
-    if (op->flags & SIM_PRICE_LASTING)
-        sim_need(s->class_free[core_price_of(s, h)->class_id], &at);
+    if (op->flags & (SIM_PRICE_LASTING | CORE_MANY_SOURCES))
+        at = need_more(s, h, at);
     return at;
 }
 
@@ -78,7 +93,7 @@ enum { ACCESS = SIM_PRICE_READS | SIM_PRICE_STORE };
 /* How long the thread's next op is held up in cycle `now` because as many lines as may be are under way; 0: it is not. */
 static __attribute__((noinline)) sim_blamed held_by_lines(const sim_core *s, const core_thread *h, uint64_t now)
 {
-    const lrb_event *e = h->op->event;
+    const lrb_event *e = core_event_of(h);
     if (core_moves_nothing(e))
         return 0;
     if (h->op->flags & ACCESS) {
@@ -103,7 +118,7 @@ static inline bool may_be_held(const sim_core *s, const core_thread *h, uint64_t
 /* The line is not simply there. */
 static __attribute__((noinline)) void access_memory(sim_core *s, core_thread *h, const core_op *op)
 {
-    const sim_fetch fetch = sim_hierarchy_access(s->memory, op->line, s->now);
+    const sim_fetch fetch = sim_hierarchy_access(s->memory, h->access[op->access].line, s->now);
     if (fetch.asked)
         sim_slots_take(&h->misses, fetch.arrival);
     if (fetch.arrival > s->now && op->flags & SIM_PRICE_READS)
@@ -112,10 +127,10 @@ static __attribute__((noinline)) void access_memory(sim_core *s, core_thread *h,
 
 static void remember_store(const sim_core *s, core_thread *h, const core_op *op)
 {
-    const sim_store_line *line = &h->stores[op->event->aux / 64 % SIM_STORE_LINES];
-    if (op->line == SIM_NO_LINE)
+    const sim_store_line *line = &h->stores[core_event_of(h)->aux / 64 % SIM_STORE_LINES];
+    if (h->access[op->access].line == SIM_NO_LINE)
         return;
-    sim_remember_store(h->stores, core_price_of(s, h), op->event, h->now);
+    sim_remember_store(h->stores, core_price_of(s, h), core_event_of(h), h->now);
     core_unsettle(h, line->ready);
 }
 
@@ -129,39 +144,42 @@ static __attribute__((noinline)) sim_blamed take_effect(sim_core *s, core_thread
     const unsigned flags = op->flags;
     h->start = sim_end_of_cycle(h->now);
     if (flags & SIM_PRICE_BRANCH)
-        core_take_branch(s, h, op->event);
+        core_take_branch(s, h, core_event_of(h));
     if (flags & SIM_PRICE_STORE)
         remember_store(s, h, op);
     if (flags & SIM_PRICE_LASTING)
         core_outlast(s, h, core_price_of(s, h));
     if (flags & SIM_PRICE_HINT)
-        core_take_hint(s, h, op->event);
+        core_take_hint(s, h, core_event_of(h));
     if (flags & SIM_PRICE_TOLD)
-        core_tell_op(s, h, op->event, joined);
+        core_tell_op(s, h, core_event_of(h), joined);
     return h->start;
 }
 
 /* The thread's next op issues in this cycle. Gives what the one behind it issues later than, if it does not join. */
-static inline sim_blamed perform(sim_core *s, core_thread *h, const bool joined)
+static inline sim_blamed perform(sim_core *s, core_thread *h, const sim_blamed now, const bool joined)
 {
-    const core_op *op = h->op;
-    sim_blamed start = sim_end_of_cycle(h->now);
-    h->issued[op->place] = h->now;
-    if (!sim_hierarchy_hits(s->memory, op->line, op->slot))
+    const core_op *const op = h->op;
+    sim_blamed *const issued = h->issued;
+    sim_blamed start = sim_end_of_cycle(now);
+    *issued = now;
+    const core_access *a = &h->access[op->access];
+    if (!sim_hierarchy_hits(s->memory, a->line, a->slot))
         access_memory(s, h, op);
     if (op->flags & EFFECTS)
         start = take_effect(s, h, joined);
-    h->op++;
+    h->op = op + 1;
+    h->issued = issued + 1;
     return start;
 }
 
 /* May the next op, which can issue at `at`, join the one that has just issued? */
-static inline bool joins(sim_core *s, const core_thread *h, sim_blamed at)
+static inline bool joins(sim_core *s, const core_thread *h, const sim_blamed now, sim_blamed at)
 {
     if (h->op->join == CORE_APART)
         return false;
     __asm__(""); /* two branches: the first is known long before the second */
-    if (at != sim_end_of_cycle(h->now))
+    if (at != sim_end_of_cycle(now))
         return false;
     if (h->op->flags & (ACCESS | SIM_PRICE_HINT) && held_by_lines(s, h, s->now))
         return false;
@@ -174,7 +192,7 @@ static inline bool joins(sim_core *s, const core_thread *h, sim_blamed at)
 static __attribute__((noinline)) void charge_idle(sim_core *s, core_thread *h, unsigned t, uint64_t cycle)
 {
     const uint64_t gap_end = sim_time_of(h->now) + s->gap, idle_from = gap_end > s->now + 1 ? gap_end : s->now + 1;
-    const unsigned bucket = s->why[t], id = h->op->event->op & (CORE_OPS - 1);
+    const unsigned bucket = s->why[t], id = core_event_of(h)->op & (CORE_OPS - 1);
     s->core_waited[bucket] += cycle - idle_from;
     s->op_waited[id] += cycle - s->now - 1;
     if (s->profile) {
@@ -184,31 +202,35 @@ static __attribute__((noinline)) void charge_idle(sim_core *s, core_thread *h, u
 }
 
 /* Issue an op, and perhaps the one after it, in this cycle. Gives when the next one can issue; 0: the tile has none left. */
-static inline __attribute__((always_inline)) sim_blamed issue(sim_core *s, core_thread *h)
+static inline __attribute__((always_inline)) sim_blamed issue(sim_core *s, core_thread *h, const sim_blamed now)
 {
-    sim_blamed start = perform(s, h, false);
+    sim_blamed start = perform(s, h, now, false);
     if (core_find_op(s, h)) {
-        const sim_blamed at = earliest(s, h, start);
-        if (!joins(s, h, at))
+        const sim_blamed at = earliest(s, h, now, start);
+        if (!joins(s, h, now, at))
             return at;
-        s->joins[h->op->event->op & (CORE_OPS - 1)]++;
-        start = perform(s, h, true);
+        s->joins[core_event_of(h)->op & (CORE_OPS - 1)]++;
+        start = perform(s, h, now, true);
         if (core_find_op(s, h))
-            return earliest(s, h, start);
+            return earliest(s, h, now, start);
     }
     h->start = start;
     return 0;
 }
 
-/* The first turn of the threads after thread t, the one that issued last; with the place in the order of choice added. */
-static inline uint64_t first_turn(const sim_core *s, unsigned threads, unsigned t, uint64_t soonest)
+/* The first turn after that of thread t, with the place in the order of choice added: its own next one is the last among equals.
+ * Mostly the thread behind it is ready, or else another one: a branch, so that the host goes on before it knows when the next op of
+ * this thread can issue. The empty statement keeps it one. */
+static inline uint64_t next_turn(const sim_core *s, unsigned threads, unsigned t, uint64_t own, uint64_t soonest)
 {
-    const uint64_t *turn = s->turn + t;
-    uint64_t first = UINT64_MAX;
+    uint64_t first = own + threads;
     for (unsigned i = 1; i < threads; i++) {
-        uint64_t mine = keep_scalar(turn[i]);
-        mine = (mine > soonest ? mine : soonest) + i;
-        first = mine < first ? mine : first;
+        const uint64_t mine = s->turn[t + i];
+        if (mine <= soonest) {
+            __asm__("");
+            return soonest + i;
+        }
+        first = mine + i < first ? mine + i : first;
     }
     return first;
 }
@@ -219,7 +241,7 @@ static base_status run_dry(sim_core *s, core_thread *h, const sim_core_feed *fee
     end_tile(s, h, feed);
     base_status status = next_tile(s, h, feed, err);
     if (status == BASE_OK && h->end)
-        *at = earliest(s, h, h->start);
+        *at = earliest(s, h, h->now, h->start);
     return status;
 }
 
@@ -244,39 +266,41 @@ static base_status begin_run(sim_core *s, const sim_core_feed *feed, base_error 
     return status;
 }
 
-/* Threads that ran dry had no work. */
+/* Threads that ran dry had no work. All ops are counted. */
 static void end_run(sim_core *s)
 {
+    core_blocks_settle(s);
     s->stats.cycles += s->now - s->began;
     for (unsigned t = 0; t < s->threads; t++)
         s->stats.threads.no_work += s->now - (s->thread[t].works ? sim_time_of(s->thread[t].now) : s->began);
 }
 
-/* The thread whose turn it is: from the turn and place that first_turn found after thread `last`. */
+/* The thread whose turn it is: from the turn and place that next_turn found after thread `last`. */
 static inline unsigned thread_of(unsigned threads, unsigned last, uint64_t turn)
 {
     const unsigned t = last + (unsigned)(turn & (CORE_TURN - 1));
+    if ((threads & (threads - 1)) == 0)
+        return t & (threads - 1);
     return t >= threads ? t - threads : t;
 }
 
 /* The first turn of all threads, that of thread t, which issued last, with the last place. */
 static uint64_t any_turn(const sim_core *s, unsigned t)
 {
-    const uint64_t soonest = (s->now + 1) * CORE_TURN, others = first_turn(s, s->threads, t, soonest);
-    const uint64_t own = (s->turn[t] > soonest ? s->turn[t] : soonest) + s->threads;
-    return own < others ? own : others;
+    const uint64_t soonest = (s->now + 1) * CORE_TURN;
+    return next_turn(s, s->threads, t, later(s->turn[t], soonest), soonest);
 }
 
-/* The loop: a turn of a thread after the other. Twice in the program, so that four threads, which all machines have, are told apart
- * by the compiler. */
+/* The loop, while there is work: a turn of a thread after the other. Twice in the program, so that four threads, which all machines
+ * have, are told apart by the compiler. */
 static inline __attribute__((always_inline)) base_status take_turns(sim_core *s, const unsigned threads, const sim_core_feed *feed,
                                                                     base_error *err)
 {
-    base_status status = BASE_OK;
     uint64_t turn = any_turn(s, s->last);
-    while (status == BASE_OK && s->working) {
+    while (true) {
         const unsigned t = thread_of(threads, s->last, turn);
         const uint64_t cycle = turn / CORE_TURN;
+        const sim_blamed now = sim_without_bucket(turn);
         core_thread *h = &s->thread[t];
         if (may_be_held(s, h, cycle)) {
             sim_blamed held = held_by_lines(s, h, cycle);
@@ -290,28 +314,28 @@ static inline __attribute__((always_inline)) base_status take_turns(sim_core *s,
             charge_idle(s, h, t, cycle);
         h->cycles += cycle - s->now;
         s->now = cycle;
-        h->now = sim_blame(cycle, 0);
+        h->now = now;
         s->last = t;
-        sim_blamed at = issue(s, h);
+        sim_blamed at = issue(s, h, now);
         if (!at) {
-            status = run_dry(s, h, feed, &at, err);
+            const base_status status = run_dry(s, h, feed, &at, err);
+            if (status != BASE_OK || !s->working)
+                return status;
             if (!h->end) {
                 turn = any_turn(s, t);
                 continue;
             }
         }
-        at = later(at, sim_blame(cycle + s->gap, SIM_BUCKET_NONE));
+        at = later(at, now + s->blamed_gap);
         core_set_turn(s, t, at, cycle + s->gap);
-        const uint64_t own = sim_without_bucket(at) + threads, others = first_turn(s, threads, t, (cycle + 1) * CORE_TURN);
-        turn = own < others ? own : others;
+        turn = next_turn(s, threads, t, sim_without_bucket(at), now + CORE_TURN);
     }
-    return status;
 }
 
 base_status sim_core_run(sim_core *s, const sim_core_feed *feed, base_error *err)
 {
     base_status status = begin_run(s, feed, err);
-    if (status == BASE_OK)
+    if (status == BASE_OK && s->working)
         status = s->threads == 4 ? take_turns(s, 4, feed, err) : take_turns(s, s->threads, feed, err);
     if (status == BASE_OK)
         end_run(s);

@@ -29,11 +29,13 @@ static bool slots_create(sim_slots *slots, unsigned count)
 static bool thread_create(sim_core *s, unsigned t)
 {
     core_thread *h = &s->thread[t];
-    h->issued = calloc(s->window + 1, sizeof *h->issued);
-    h->producer = malloc(s->window + 1);
+    h->issued_begin = calloc(CORE_ROOM(s->window), sizeof *h->issued_begin);
+    h->issued = h->issued_begin + s->window;
+    h->producer = calloc(CORE_ROOM(s->window), 1);
+    h->op = h->block_end = h->block;
     h->late = calloc(s->late_window, sizeof *h->late);
     h->scratch = t * LRB_SCRATCH_BYTES;
-    return slots_create(&h->misses, s->machine->memory.demand_misses_per_thread) && h->issued && h->producer && h->late;
+    return slots_create(&h->misses, s->machine->memory.demand_misses_per_thread) && h->issued_begin && h->producer && h->late;
 }
 
 /* By class; the price of any of its ops has them. */
@@ -50,16 +52,16 @@ static bool create_parts(sim_core *s)
     s->window = sim_window(machine);
     s->late_window = late_window_of(machine);
     s->gap = machine->issue_gap;
+    s->blamed_gap = sim_blame(s->gap, SIM_BUCKET_NONE);
     s->threads = machine->threads;
     s->line_bits = (unsigned)__builtin_ctz(machine->l1.line_bytes);
     s->longest_latency = sim_longest_latency(machine);
     s->last = s->threads - 1;
     s->price = sim_op_prices(machine);
-    s->turn = calloc(2 * s->threads, sizeof *s->turn);
-    s->why = calloc(s->threads, sizeof *s->why);
+    s->blocks = core_blocks_create(2 * (s->longest_latency + 1));
     s->forms = calloc((size_t)SIM_MAX_PHASES * CORE_FORMS, sizeof *s->forms);
     s->thread = calloc(s->threads, sizeof *s->thread);
-    if (!s->price || !s->turn || !s->why || !s->forms || !s->thread || !slots_create(&s->prefetches, machine->memory.prefetches_per_core))
+    if (!s->price || !s->blocks || !s->forms || !s->thread || !slots_create(&s->prefetches, machine->memory.prefetches_per_core))
         return false;
     fill_latencies(s);
     for (unsigned t = 0; t < s->threads; t++)
@@ -79,6 +81,8 @@ base_status sim_core_create(const sim_machine *machine, sim_core **out, base_err
         status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     if (status == BASE_OK)
         status = sim_hierarchy_create(machine, lines_under_way(machine), &s->memory, err);
+    for (unsigned t = 0; status == BASE_OK && t < s->threads; t++)
+        s->thread[t].access[0] = (core_access){.line = SIM_NO_LINE, .slot = s->memory->known_count};
     if (status == BASE_OK)
         status = sim_predictor_create(machine->branch.btb_entries, machine->branch.btb_ways, &s->predictor, err);
     if (status != BASE_OK)
@@ -90,15 +94,14 @@ void sim_core_destroy(sim_core **core)
 {
     sim_core *s = *core;
     for (unsigned t = 0; s && s->thread && t < s->threads; t++) {
-        free(s->thread[t].issued);
+        free(s->thread[t].issued_begin);
         free(s->thread[t].producer);
         free(s->thread[t].late);
         free(s->thread[t].misses.until);
     }
     if (s) {
         free(s->price);
-        free(s->turn);
-        free(s->why);
+        free(s->blocks);
         free(s->forms);
         free(s->thread);
         free(s->prefetches.until);

@@ -96,6 +96,7 @@ static void tell_of_all(sim_core *s)
 {
     for (uint32_t op = 0; op <= UINT16_MAX; op++)
         s->price[op].flags |= SIM_PRICE_TOLD;
+    core_blocks_forget(s);
 }
 
 void sim_core_set_profile(sim_core *s, sim_profile *profile)

@@ -15,6 +15,8 @@
 enum { CORE_TURN = 256 };
 #define CORE_NEVER (UINT64_MAX - (CORE_TURN - 1))
 
+enum { CORE_MAX_THREADS = 64 }; /* a machine has no more */
+enum { CORE_SOURCES = 2 };
 enum { CORE_OPS = 512, CORE_FORMS = UINT16_MAX + 1 };
 _Static_assert((int)LRB_OP_COUNT <= CORE_OPS, "the counters have a place for every op");
 
@@ -26,27 +28,35 @@ typedef struct core_late_result {
     const sim_op_price *price;
 } core_late_result;
 
-/* An op of a tile, made ready for the loop a block at a time: what does not depend on time is found here, where a host foresees
- * its branches. */
+/* An op of a tile, made ready for the loop a block at a time: what does not depend on time is found once, and remembered with the
+ * block (sim/core_blocks.c). 8 bytes: many blocks are to be near at hand. */
 typedef struct core_op {
-    const lrb_event *event;
-    uint64_t line;                     /* that it accesses, loads and stores; SIM_NO_LINE: none */
-    uint16_t source[SIM_MAX_SOURCES];  /* where its sources are in the thread's `issued` */
-    uint32_t latencies;                /* and from there to when they are ready: a byte each, a place in the core's `latency` */
-    uint32_t slot;                     /* where its place may be known (sim/hierarchy.h) */
-    uint32_t pause;                    /* markers before the op; CORE_END: there is no op here */
-    uint16_t place;                    /* of the op itself in `issued` */
-    uint8_t flags;                     /* of the price */
-    uint8_t join;                      /* core_join: the op before it */
+    uint8_t flags;  /* of the price, and CORE_MANY_SOURCES */
+    uint8_t join;   /* core_join: the op before it */
+    uint8_t access; /* its place in the thread's `access` */
+    uint8_t pad;
+    int8_t source[CORE_SOURCES];   /* results that it may have to wait for: places in `issued`, from its own on */
+    uint8_t latency[CORE_SOURCES]; /* from there to when they are ready: a place in the core's `latency` */
 } core_op;
+_Static_assert(sizeof(core_op) == 8, "a power of two");
+
+/* What an op accesses, a load or a store. */
+typedef struct core_access {
+    uint64_t line; /* SIM_NO_LINE: none */
+    uint32_t slot; /* where its place may be known (sim/hierarchy.h) */
+} core_access;
 
 /* Whether an op may issue in V beside the one before it, if both are ready. */
 typedef enum core_join { CORE_APART, CORE_JOINS, CORE_CONFLICTS /* but for its bank or its bytes */ } core_join;
 
+enum { CORE_MANY_SOURCES = 128 }; /* a flag: more than CORE_SOURCES, or of too long ago for a block to know */
 enum { CORE_BLOCK = 64 };
+/* So many ops fit behind each other in `issued`: the youngest move to its beginning when the next block does not fit. */
+#define CORE_ROOM(window) (2 * (size_t)(window) + CORE_BLOCK)
 enum { CORE_READY = LRB_CLASS_COUNT }; /* a class of results that all are ready */
 _Static_assert((CORE_READY + 1) * SIM_CONSUMERS <= 256, "latencies are numbered by bytes");
-#define CORE_END UINT32_MAX
+
+typedef struct core_blocks core_blocks;
 
 /* A hardware thread. Times are cycles, or blamed times where the type says so. */
 typedef struct core_thread {
@@ -54,11 +64,11 @@ typedef struct core_thread {
     sim_blamed now;     /* of the last issue, bucket 0 */
     sim_blamed unsettled_until; /* no late result and no store is ready later */
     sim_blamed late_until;  /* no late result is */
-    sim_blamed *issued;  /* when the youngest ops did, bucket 0, by number within the window; a last one is always 0 */
+    sim_blamed *issued;  /* when ops did, bucket 0: the place of the next op, behind those of at least a window of ops */
     uint64_t cycles;    /* core cycles so far that belong to the thread's ops */
     sim_blamed start;   /* the next op issues later than this, unless it joins; kept where the op has effects or ends its tile */
-    uint8_t *producer;   /* the same for the decoded ops: class, times SIM_CONSUMERS; CORE_READY: none, or long ago */
-    uint32_t first, decoded_ops; /* number of the block's first op, and of the first one behind it */
+    const core_op *block_end;
+    uint32_t first;     /* number of the block's first op */
     uint32_t tile_first; /* number of the tile's first op */
     uint32_t scratch;   /* displacement of the thread's scratch memory */
     core_late_result *late;  /* by number of the op */
@@ -70,12 +80,13 @@ typedef struct core_thread {
     uint64_t regions[SIM_MAX_REGIONS + 1]; /* of the tile */
     sim_whereabouts at;
 
-    const lrb_event *before;        /* the last op in the block; NULL: the tile had none yet */
-    const lrb_event *decoded, *end; /* the tile's events from `decoded` on are not in the block yet; NULL: no tile */
-    uint32_t trailing;      /* markers before `decoded` that no op follows */
-    uint32_t decoded_phase;
+    const lrb_event *block_events;  /* of the block's ops */
+    const lrb_event *undecoded, *end; /* the tile's events behind the block; NULL: no tile */
+    sim_blamed *issued_begin;       /* owned; CORE_ROOM(window) of them */
+    uint8_t *producer;              /* owned; classes of the ops there, times SIM_CONSUMERS; CORE_READY: none, or of another tile */
     bool works;             /* it has been given a tile with ops in this run */
-    core_op block[CORE_BLOCK + 1];
+    core_op block[CORE_BLOCK];
+    core_access access[CORE_BLOCK + 1]; /* the first one is none */
 } core_thread;
 
 struct sim_core {
@@ -84,12 +95,13 @@ struct sim_core {
     uint32_t window, late_window; /* powers of two */
     sim_blamed latency[(LRB_CLASS_COUNT + 1) * SIM_CONSUMERS]; /* of each class to each kind of consumer; of CORE_READY 0 */
     uint64_t gap;
+    sim_blamed blamed_gap; /* the gap, SIM_BUCKET_NONE */
     unsigned threads, line_bits, longest_latency;
 
     /* The turn of a thread is the cycle in which its next op can issue, times CORE_TURN; CORE_NEVER: it has none. There are two
        copies one after the other, so that those of the threads after any one lie in a row. */
-    uint64_t *turn;
-    uint8_t *why;      /* the bucket to blame for each thread's turn */
+    uint64_t turn[2 * CORE_MAX_THREADS];
+    uint8_t why[CORE_MAX_THREADS]; /* the bucket to blame for each thread's turn */
     uint64_t now;      /* cycle in which the core issued last */
     unsigned last;     /* thread that issued last */
     unsigned working;  /* threads that have an op to issue */
@@ -97,6 +109,7 @@ struct sim_core {
     sim_blamed class_free[LRB_CLASS_COUNT];
     sim_hierarchy *memory;
     sim_predictor *predictor;
+    core_blocks *blocks;
     sim_slots prefetches; /* count 0: there may be none */
 
     uint64_t *forms;         /* events, by phase and op field; SIM_MAX_PHASES x CORE_FORMS */
@@ -125,8 +138,11 @@ static inline void core_set_turn(sim_core *s, unsigned t, sim_blamed ready, uint
 /** Number of the thread's next op. */
 static inline uint32_t core_number(const core_thread *h) { return h->first + (uint32_t)(h->op - h->block); }
 
+/** Event of the thread's next op. */
+static inline const lrb_event *core_event_of(const core_thread *h) { return h->block_events + (h->op - h->block); }
+
 /** Price of the thread's next op. */
-static inline const sim_op_price *core_price_of(const sim_core *s, const core_thread *h) { return &s->price[h->op->event->op]; }
+static inline const sim_op_price *core_price_of(const sim_core *s, const core_thread *h) { return &s->price[core_event_of(h)->op]; }
 
 /** Whether an access or a hint is under a mask of no lanes; an S3 in memory is read whatever the mask. */
 static inline bool core_moves_nothing(const lrb_event *e)
@@ -147,19 +163,31 @@ static inline void core_unsettle(core_thread *h, sim_blamed until)
     h->unsettled_until = until > h->unsettled_until ? until : h->unsettled_until;
 }
 
+/** No blocks yet, of ops that wait for none from `far` ops before on; NULL if the host is out of memory. free() them. */
+core_blocks *core_blocks_create(unsigned far);
+
+/** Forget all blocks: prices have changed. */
+void core_blocks_forget(sim_core *s);
+
+/** Put the ops of all blocks into s->forms; until then those of known blocks are not there. */
+void core_blocks_settle(sim_core *s);
+
+/** Make the thread's next block ready, whose first event is an op. */
+void core_blocks_next(sim_core *s, core_thread *h);
+
 /** A tile has none of the ops of the one before: make its first block ready. False: it has no op at all. */
 bool core_begin_tile(sim_core *s, core_thread *h, const lrb_event *events, size_t count);
 
 /** All ops of the tile have issued: its cycles belong to its last phase and region. */
 void core_end_tile(sim_core *s, core_thread *h);
 
-/** What core_find_op does where markers stand or the block ends. */
+/** What core_find_op does where the block ends. */
 bool core_pass_markers(sim_core *s, core_thread *h);
 
 /** Go on to the thread's next op; false: the tile has none left. */
 static inline bool core_find_op(sim_core *s, core_thread *h)
 {
-    return !h->op->pause || core_pass_markers(s, h);
+    return h->op < h->block_end || core_pass_markers(s, h);
 }
 
 /** The data of the op that issues comes later than from the first level. */
