@@ -54,13 +54,16 @@ static double lambert(const run_result *r, const surface *s, double t, const dou
     return fmax(0, s->facing * dot(s->normal, to_light));
 }
 
-/* What the light lends a pixel's hit, and a weaker light at the camera. `seen`: of the light, by pixel; NULL: as the kernel lit it. */
+/* What the light lends a pixel's hit, and a weaker light at the camera; of kernels with a shader, what that made of it. `seen`: of the
+   light, by pixel; NULL: as the kernel lit it. */
 static double brightness(const run_result *r, unsigned x, unsigned y, const float *seen)
 {
     const job_pixel p = kernel_job_pixel(r->job, x, y);
     const job_frame_tile *tile = &r->job->frame_host[p.tile];
     const job_row *row = r->job->rows_host ? kernel_job_row(r->job, x, y) : NULL;
     float direction[3];
+    if (r->job->shades_host)
+        return (double)r->job->shades_host[p.tile].shade[p.block][p.pixel];
     kernel_job_direction(r->job, x, y, direction);
     const double d[3] = {(double)direction[0], (double)direction[1], (double)direction[2]};
     const surface s = surface_of(r, tile->id[p.block][p.pixel], d);

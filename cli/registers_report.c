@@ -33,9 +33,9 @@ json_t *registers_json(const run_result *r)
     for (int file = 0; file < SIM_FILES; file++) {
         json_t *phases = json_object();
         for (int phase = 0; phase < KERNEL_PHASE_COUNT; phase++) {
-            if (!(r->options.kernel->phases >> phase & 1))
-                continue;
             const sim_pressure *p = &r->registers.pressure[phase][file];
+            if (!kernel_has_phase(r->options.kernel, phase, r->registers.ops[phase]))
+                continue;
             json_t *numbers = json_object();
             json_object_set_new(numbers, "max", json_integer((json_int_t)p->max));
             json_object_set_new(numbers, "mean", report_json_real(mean(r, phase, file), PRESSURE_DECIMALS));
@@ -63,9 +63,9 @@ report_table *registers_table(const run_result *r)
         snprintf(text, sizeof text, registers ? "%s, %u registers" : "%s", sim_file_names[file], registers);
         report_table_begin_group(t, text);
         for (int phase = 0; phase < KERNEL_PHASE_COUNT; phase++) {
-            if (!(r->options.kernel->phases >> phase & 1))
-                continue;
             const sim_pressure *p = &r->registers.pressure[phase][file];
+            if (!kernel_has_phase(r->options.kernel, phase, r->registers.ops[phase]))
+                continue;
             report_table_begin_row(t);
             report_table_add_text(t, kernel_phase_names[phase]);
             report_table_add_integer(t, (int64_t)p->max);

@@ -12,7 +12,7 @@
 #include "lrbni/base/output_file.h"
 #include "scene/builtin.h"
 
-enum { KEY_UPDATE = 256, KEY_BASELINES, KEY_JOBS, PATH_BYTES = 4096, FIELD_BYTES = 160, KERNELS = 4 };
+enum { KEY_UPDATE = 256, KEY_BASELINES, KEY_JOBS, PATH_BYTES = 4096, FIELD_BYTES = 160, PARAM_BYTES = 32, KERNELS = 4 };
 
 /* What is measured: kernels on scenes, size x size pixels. */
 typedef struct suite {
@@ -64,7 +64,7 @@ static const struct argp argp = {
     option_table, parse, "[SUITE...]",
     "Measure the suites (all but the long ones, if none is named) and compare every count, op and cycle with the stored baseline.\v"
     "Exit code 1 if anything differs. Suites, on the three small indoor scenes, on larrabee and knc: mft-primary and mft-soft, packets, large packets and frusta, "
-    "primary rays at 256x256, soft shadows at 32x32 with every way to shrink frusta; mlrta-primary and mlrta-shadow, packets through the "
+    "primary rays at 256x256, with and without a shader, soft shadows at 32x32 with every way to shrink frusta; mlrta-primary and mlrta-shadow, packets through the "
     "kd-tree from its root and from entry points, at 128x128 and, with hard shadows, 64x64. Measured only if named: mft-table1-long, the "
     "counts of 'lanetrace report mft-table1' at 1024x1024 on its scenes, and the cycles of one of its rows: minutes.",
     NULL, NULL, NULL,
@@ -99,7 +99,7 @@ static base_status measure_long(json_t *runs, const suite *of, const scene *s, c
     return status;
 }
 
-/* One kernel in all models; other ways to shrink are counted only. */
+/* One kernel in all models; other ways to shrink, and the shader, are counted only. */
 static base_status measure_kernel(json_t *runs, const scene *s, const kernel_info *kernel, unsigned size, unsigned jobs, base_error *err)
 {
     static const struct {
@@ -112,6 +112,11 @@ static base_status measure_kernel(json_t *runs, const scene *s, const kernel_inf
     base_status status = BASE_OK;
     for (size_t w = 0; status == BASE_OK && w < sizeof ways / sizeof *ways; w++)
         status = measure(runs, s, kernel, &params, size, ways[w].machine, ways[w].model, jobs, err);
+    if (status == BASE_OK && (kernel->params >> KERNEL_PARAM_SHADER & 1)) {
+        kernel_params shaded = params;
+        shaded.shader = KERNEL_SHADER_SIMPLE;
+        status = measure(runs, s, kernel, &shaded, size, "larrabee", RUN_COUNT, jobs, err);
+    }
     if (!(kernel->params >> KERNEL_PARAM_SHRINK & 1))
         return status;
     for (params.shrink = shrink->min + 1; status == BASE_OK && params.shrink <= shrink->max; params.shrink++)
@@ -147,12 +152,21 @@ static base_status measure_suite(json_t *runs, const suite *of, unsigned jobs, b
     return status;
 }
 
-/* What names a run: kernel, how it shrinks frusta if not at all, scene, model, machine. */
+/* " PARAM=VALUE" if a run has that parameter, and it is not `none`. */
+static void param_name(const json_t *run, const char *param, char text[PARAM_BYTES])
+{
+    const char *value = json_string_value(json_object_get(json_object_get(run, "params"), param));
+    const bool shown = value && strcmp(value, "none") != 0;
+    snprintf(text, PARAM_BYTES, "%s%s%s%s", shown ? " " : "", shown ? param : "", shown ? "=" : "", shown ? value : "");
+}
+
+/* What names a run: kernel, how it shrinks frusta and shades if at all, scene, model, machine. */
 static void run_name(const json_t *run, char *name, size_t size)
 {
-    const char *shrink = json_string_value(json_object_get(json_object_get(run, "params"), "shrink"));
-    const bool shrinks = shrink && strcmp(shrink, "none") != 0;
-    snprintf(name, size, "%s%s%s %s %s %s", json_string_value(json_object_get(run, "kernel")), shrinks ? " shrink=" : "", shrinks ? shrink : "",
+    char shrink[PARAM_BYTES], shader[PARAM_BYTES];
+    param_name(run, "shrink", shrink);
+    param_name(run, "shader", shader);
+    snprintf(name, size, "%s%s%s %s %s %s", json_string_value(json_object_get(run, "kernel")), shrink, shader,
              json_string_value(json_object_get(json_object_get(run, "scene"), "name")), json_string_value(json_object_get(run, "model")),
              json_string_value(json_object_get(json_object_get(run, "machine"), "name")));
 }

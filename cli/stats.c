@@ -32,7 +32,7 @@ static json_t *phases_json(const run_result *r)
     const uint64_t *phase = r->options.model == RUN_CORE ? r->core.phase : r->issue.phase;
     json_t *object = json_object();
     for (int i = 0; i < KERNEL_PHASE_COUNT; i++)
-        if (r->options.kernel->phases >> i & 1)
+        if (kernel_has_phase(r->options.kernel, i, phase[i]))
             json_object_set_new(object, kernel_phase_names[i], integer(phase[i]));
     return object;
 }

@@ -113,6 +113,7 @@ void job_constants_fill(job_constants *k, const scene_primary_rays *rays, unsign
     k->tiny = 1e-18f;
     k->minus_tiny = -1e-18f;
     k->no_hit = JOB_NO_HIT;
+    k->half = 0.5f;
 }
 
 static uint32_t frame_tiles(const kernel_job *job) { return job->tiles_x * job->tiles_y; }
@@ -170,6 +171,14 @@ static base_status map_msaa(kernel_job *job, lrb_memory *memory, base_error *err
     return status;
 }
 
+static base_status map_shader(kernel_job *job, lrb_memory *memory, base_error *err)
+{
+    base_status status = lrb_memory_map(memory, "normals", job->normals_host, job->normals.size, &job->normals, err);
+    if (status == BASE_OK)
+        status = lrb_memory_map(memory, "shades", job->shades_host, job->shades.size, &job->shades, err);
+    return status;
+}
+
 static base_status map_segments(kernel_job *job, base_error *err)
 {
     lrb_memory memory = lrb_memory_empty();
@@ -182,6 +191,8 @@ static base_status map_segments(kernel_job *job, base_error *err)
         status = map_tree(job, &memory, err);
     if (status == BASE_OK && job->params.msaa)
         status = map_msaa(job, &memory, err);
+    if (status == BASE_OK && job->shades_host)
+        status = map_shader(job, &memory, err);
     if (status != BASE_OK || !job->shadows_host)
         return status;
     if (job->samples_host)

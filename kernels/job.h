@@ -50,6 +50,11 @@ typedef struct job_shadow_tile {
     float visibility[16][16];   /* the fraction of the light that is seen, by all sets */
 } job_shadow_tile;
 
+/* What the simple shader makes of a tile's hits, by block and pixel: the cosine between ray and surface; 0: no hit. */
+typedef struct job_shade_tile {
+    float shade[16][16];
+} job_shade_tile;
+
 /* What the filter of soft shadows reads and writes of 16 pixels side by side, a row of a tile: a line for each, 512 bytes. */
 typedef struct job_row {
     float depth[16];      /* +infinity: no hit, or not in the image */
@@ -85,6 +90,7 @@ typedef struct job_constants {
     float guard;               /* factor of the rounding error of corner tests (kernels/mft/corner_cull.h) */
     uint32_t no_hit;
     job_light light;
+    float half;
 } job_constants;
 
 /** Fill in the constants of a picture's rays; the light is 0. */
@@ -131,7 +137,8 @@ typedef struct kernel_job {
     lrb_segment light_constants;    /* constants of rays from the light */
     unsigned sample_passes;         /* sets of samples that a pixel uses one after another; 0: no shadow rays */
     uint32_t sample_mask;           /* samples of a set that are taken */
-    lrb_segment samples, normals, shadows; /* these and their host memory: only if there are shadow rays */
+    lrb_segment samples, normals, shadows; /* these and their host memory: only if there are shadow rays (normals: or a shader) */
+    lrb_segment shades;             /* this: only if there is a shader */
     lrb_segment filter, rows;       /* these: only if there are soft shadows */
     bool filtered;                  /* there is a second pass, of a unit a tile, which filters them */
     job_constants *constants_host; /* the segments' host memory; owned */
@@ -140,6 +147,7 @@ typedef struct kernel_job {
     job_sample_set *samples_host;
     float (*normals_host)[4]; /* unit normals by triangle id, the fourth float 0 */
     job_shadow_tile *shadows_host;
+    job_shade_tile *shades_host;
     job_filter *filter_host;
     job_row *rows_host; /* by row of pixels, from the one above the image, and in it from a tile to its left; edges have no hits */
     job_cells *cells_host; /* two */

@@ -107,19 +107,33 @@ static size_t id_limit(const kernel_job *job)
     return limit;
 }
 
-/* Normals and shadows: what hard shadows need as well. */
-static bool create_frame(kernel_job *job)
+static bool create_normals(kernel_job *job)
 {
     const size_t normals = id_limit(job), bytes = (normals * sizeof *job->normals_host + 63) / 64 * 64;
     job->normals.size = bytes;
-    job->shadows.size = (size_t)job->tiles_x * job->tiles_y * sizeof *job->shadows_host;
     job->normals_host = aligned_alloc(64, job->normals.size);
-    job->shadows_host = aligned_alloc(64, job->shadows.size);
-    if (!job->normals_host || !job->shadows_host)
+    if (!job->normals_host)
         return false;
     memset(job->normals_host, 0, bytes);
     fill_normals(job);
     return true;
+}
+
+/* Normals and shadows: what hard shadows need as well. */
+static bool create_frame(kernel_job *job)
+{
+    job->shadows.size = (size_t)job->tiles_x * job->tiles_y * sizeof *job->shadows_host;
+    job->shadows_host = aligned_alloc(64, job->shadows.size);
+    return job->shadows_host && create_normals(job);
+}
+
+static base_status create_shader(kernel_job *job, base_error *err)
+{
+    job->shades.size = (size_t)job->tiles_x * job->tiles_y * sizeof *job->shades_host;
+    job->shades_host = aligned_alloc(64, job->shades.size);
+    if (job->shades_host && create_normals(job))
+        return BASE_OK;
+    return base_fail(err, BASE_ERR_NOMEM, "image", "out of memory for the shades of %ux%u pixels", job->width, job->height);
 }
 
 /* The limits of the filter are ours: the paper gives none. */
@@ -168,6 +182,8 @@ base_status job_shadow_create(kernel_job *job, const scene_light *light, base_er
     const unsigned samples = job->params.samples;
     if (light)
         fill_light(job, light);
+    if (job->params.shader)
+        return create_shader(job, err);
     if (samples == 0)
         return job->params.hard_shadows ? create_hard(job, err) : BASE_OK;
     base_status status = kernel_params_check_samples(samples, err);
@@ -194,6 +210,7 @@ void job_shadow_destroy(kernel_job *job)
     free(job->samples_host);
     free(job->normals_host);
     free(job->shadows_host);
+    free(job->shades_host);
     free(job->filter_host);
     free(job->rows_host);
 }

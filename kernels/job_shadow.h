@@ -1,4 +1,4 @@
-/* The shadow part of a job: the light, the sets of samples, normals, and the rays they make. */
+/* The shading and shadow part of a job: the light, the sets of samples, normals, and the rays they make. */
 #ifndef KERNELS_JOB_SHADOW_H
 #define KERNELS_JOB_SHADOW_H
 
@@ -7,7 +7,8 @@
 #include "kernels/job.h"
 
 /**
- * Fill in the light of a job's constants, and lay out sets of samples, normals and shadows if params.samples is not 0.
+ * Fill in the light of a job's constants, and lay out sets of samples, normals and shadows if params.samples is not 0, normals and
+ * shades if there is a shader. No kernel takes both.
  * Maps no segment.
  *
  * @param job    with its tree, its tiles and its constants; owns what is allocated, also after a failure

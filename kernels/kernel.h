@@ -7,6 +7,7 @@
 #ifndef KERNELS_KERNEL_H
 #define KERNELS_KERNEL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -28,7 +29,7 @@ typedef struct kernel_info {
     kernel_accel accel;
     uint64_t counters;         /* bit i: counter i is reported */
     uint64_t params;           /* bit i: kernel_param i is taken */
-    uint64_t phases;           /* bit i: kernel_phase i is part of it */
+    uint64_t phases;           /* bit i: kernel_phase i is part of it, whatever its parameters are */
     kernel_tile_fn *tile[LRB_LEVELS]; /* by level */
     kernel_tile_fn *annotated; /* LRB_RECORD, with more markers (lrbni/annotate.h) */
 } kernel_info;
@@ -55,6 +56,12 @@ typedef enum kernel_phase {
 /** "setup", "traversal" and so on. */
 extern const char *const kernel_phase_names[KERNEL_PHASE_COUNT];
 
+/** Whether a phase is to be reported: it is a part of the kernel, or a parameter brought it in, so it has taken something. */
+static inline bool kernel_has_phase(const kernel_info *kernel, int phase, uint64_t taken)
+{
+    return (kernel->phases >> phase & 1) || taken > 0;
+}
+
 /* Numbers of the source files, for branches and lines in events (LRB_SOURCE; kernels/sources.h has the files). */
 enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, KERNEL_SOURCE_CORNER_CULL, KERNEL_SOURCE_PACKET16, KERNEL_SOURCE_MFT,
        KERNEL_SOURCE_RAYS, KERNEL_SOURCE_SHADOW, KERNEL_SOURCE_PACKET16_SOFT,
@@ -62,7 +69,7 @@ enum { KERNEL_SOURCE_SLAB = 1, KERNEL_SOURCE_TRAVERSAL, KERNEL_SOURCE_TRIANGLE, 
        KERNEL_SOURCE_KD16, KERNEL_SOURCE_KD16_TILE, KERNEL_SOURCE_KD16_PRIMARY, KERNEL_SOURCE_TILE_BOUNDS, KERNEL_SOURCE_ENTRY_SEARCH,
        KERNEL_SOURCE_ENTRY_END, KERNEL_SOURCE_ENTRY_CULL, KERNEL_SOURCE_MLRTA_PRIMARY, KERNEL_SOURCE_HARD_SHADOW,
        KERNEL_SOURCE_KD16_SHADOW, KERNEL_SOURCE_HIT_BOUNDS, KERNEL_SOURCE_MLRTA_SHADOW, KERNEL_SOURCE_FILTER,
-       KERNEL_SOURCE_PACKETS256, KERNEL_SOURCE_SILHOUETTES, KERNEL_SOURCE_MFT_MSAA, KERNEL_SOURCE_FRAME, KERNEL_SOURCE_END };
+       KERNEL_SOURCE_PACKETS256, KERNEL_SOURCE_SILHOUETTES, KERNEL_SOURCE_MFT_MSAA, KERNEL_SOURCE_FRAME, KERNEL_SOURCE_SHADE, KERNEL_SOURCE_END };
 
 /* The name of a tile function at the level that is being compiled: mft_primary_count. */
 #if defined(LRB_LEVEL) && LRB_LEVEL == 0

@@ -15,6 +15,7 @@ static const char *const culling_names[] = {"inverse", "direct", "corner-rays"};
 static const char *const divergent_names[] = {"split", "xp"};
 static const char *const packets_names[] = {"octants", "rays"};
 static const char *const shadow_packets_names[] = {"whole", "normal", "triangle"};
+static const char *const shader_names[] = {"none", "simple"};
 static const char *const marking_names[] = {"pixel", "block"};
 
 static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
@@ -42,6 +43,7 @@ static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
     [KERNEL_PARAM_FILTER] = {"filter", 0, 1, "1: a second pass takes means over 4x4 pixels of a surface", offsetof(kernel_params, filter), NULL},
     [KERNEL_PARAM_MARKING] = {"marking", 0, 1, "what is marked where a silhouette crosses: pixels, or blocks of 4x4", offsetof(kernel_params, marking), marking_names},
     [KERNEL_PARAM_RETRACE] = {"retrace", 0, 1, "1: 16 samples of each marked pixel are traced; 0: pixels are marked only", offsetof(kernel_params, retrace), NULL},
+    [KERNEL_PARAM_SHADER] = {"shader", 0, 1, "what hits are shaded by: nothing, or Lambert's law with a light at the eye", offsetof(kernel_params, shader), shader_names},
 };
 
 const kernel_param_info *kernel_param_list(size_t *count)
@@ -83,7 +85,7 @@ static base_status set_number(const kernel_param_info *info, unsigned *field, co
 
 base_status kernel_params_set(kernel_params *params, uint64_t takes, const char *assignment, base_error *err)
 {
-    char names[256] = "";
+    char names[320] = "";
     size_t length = strcspn(assignment, "=");
     if (assignment[length] != '=')
         return base_fail(err, BASE_ERR_USAGE, "--param", "'%s' is not KEY=VALUE", assignment);

@@ -25,6 +25,9 @@ typedef enum kernel_shadow_packets { KERNEL_SHADOW_WHOLE, KERNEL_SHADOW_NORMAL, 
 /* What is marked where a silhouette crosses: the pixels that it crosses, or the blocks of 4x4. */
 typedef enum kernel_marking { KERNEL_MARKING_PIXEL, KERNEL_MARKING_BLOCK } kernel_marking;
 
+/* What primary rays shade: nothing, or their hits by a light at the eye (kernels/shade16.h). */
+typedef enum kernel_shader { KERNEL_SHADER_NONE, KERNEL_SHADER_SIMPLE } kernel_shader;
+
 typedef struct kernel_params {
     unsigned cull_backface; /* 1: triangles are hit from their front only */
     unsigned max_leaf;      /* triangles in a leaf of the BVH, at most */
@@ -47,6 +50,7 @@ typedef struct kernel_params {
     unsigned marking;       /* kernel_marking */
     unsigned retrace;       /* 1: 16 samples of marked pixels are traced */
     unsigned ends;          /* 1: a triangle that all rays of a tile hit ends the search for its entry point */
+    unsigned shader;        /* kernel_shader */
     unsigned samples;       /* option --samples: shadow rays a pixel; 0: the kernel traces none */
     double light_scale;     /* option --light-scale: of the light's edges, about its centre */
 } kernel_params;
@@ -77,6 +81,7 @@ typedef enum kernel_param {
     KERNEL_PARAM_FILTER,
     KERNEL_PARAM_MARKING,
     KERNEL_PARAM_RETRACE,
+    KERNEL_PARAM_SHADER,
     KERNEL_PARAM_COUNT
 } kernel_param;
 

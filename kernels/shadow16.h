@@ -149,13 +149,13 @@ LRB_INLINE void shadow16_store_rows(lrb_ctx *c, const shadow16_rows *r, size_t p
         lrb_packstorel_ps(c, lrb_at(r->at[j], (int32_t)plane), r->lanes[j], values);
 }
 
-/* 1/sqrt(x) for x above 0, by the machine's estimate and two Newton steps: relative error below 2^-21. */
-LRB_INLINE lrb_v16f shadow16_rsqrt(lrb_ctx *c, const shadow16 *w, lrb_v16f x)
+/* 1/sqrt(x) for x above 0, given where 0.5 is, by the machine's estimate and two Newton steps: relative error below 2^-21. */
+LRB_INLINE lrb_v16f shadow16_rsqrt(lrb_ctx *c, lrb_mem half_of_one, lrb_v16f x)
 {
     lrb_v16f r = lrb_rsqrtlut_ps(c, x);
     for (int step = 0; step < 2; step++) {
         lrb_v16f error = lrb_msubr23c1_ps(c, lrb_mul_ps(c, x, r), r);
-        lrb_v16f half = lrb_mul_ps_s3(c, r, lrb_1to16_ps(lrb_at(w->filter, (int32_t)offsetof(job_filter, half))));
+        lrb_v16f half = lrb_mul_ps_s3(c, r, lrb_1to16_ps(half_of_one));
         r = lrb_madd231_ps(c, r, half, error);
     }
     return r;
@@ -172,7 +172,7 @@ LRB_INLINE void shadow16_shade(lrb_ctx *c, const shadow16 *w, lrb_k16 hits, lrb_
     }
     square = lrb_max_ps_s3(c, square, lrb_1to16_ps(RAYS16_CONSTANT(w->constants, tiny)));
     cosine = lrb_max_ps(c, cosine, zero);
-    lrb_v16f shading = lrb_mask_mul_ps(c, zero, hits, cosine, shadow16_rsqrt(c, w, square));
+    lrb_v16f shading = lrb_mask_mul_ps(c, zero, hits, cosine, shadow16_rsqrt(c, lrb_at(w->filter, (int32_t)offsetof(job_filter, half)), square));
     const shadow16_rows rows = shadow16_rows_of(c, w);
     for (int axis = 0; axis < 3; axis++)
         shadow16_store_rows(c, &rows, offsetof(job_row, normal[axis]), n[axis]);

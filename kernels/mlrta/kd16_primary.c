@@ -2,6 +2,7 @@
  * Hurley 2005 (docs/kernels-mlrta.md).
  */
 #include "kernels/mlrta/kd16_tile.h"
+#include "kernels/shade16.h"
 #include "kernels/tile_function.h"
 
 #undef LRB_SOURCE
@@ -18,6 +19,7 @@ LRB_INLINE void kd16_primary_tile(lrb_ctx *c, const kernel_job *job, uint32_t ti
         kd16_blocks(c, &k, tile_ptr, frame, NULL, true, lrb_imm(0xffff));
     else
         kd16_blocks(c, &k, tile_ptr, frame, NULL, false, lrb_imm(0xffff));
+    shade16_tile(c, job, lrb_imm(tile), lrb_imm(0xffff));
 }
 
 KERNEL_TILE_FUNCTION(kd16_primary, kd16_primary_tile)

@@ -5,6 +5,7 @@
  */
 #include "kernels/mlrta/entry_search.h"
 #include "kernels/mlrta/kd16_tile.h"
+#include "kernels/shade16.h"
 #include "kernels/tile_function.h"
 
 #undef LRB_SOURCE
@@ -70,18 +71,35 @@ LRB_INLINE void mlrta_tell_complexity(const mlrta_state *m, uint64_t tile)
             m->job->complexity_host[tile][block] = m->complexity;
 }
 
+/* The 16x16 tile that the loop is at: its place, and its number in the frame. */
+typedef struct mlrta_here {
+    lrb_r64 x, y, index;
+} mlrta_here;
+
+LRB_INLINE mlrta_here mlrta_loop_at(lrb_ctx *c, const mlrta_state *m)
+{
+    mlrta_here at = {.x = lrb_load32(c, MLRTA_LOOP(m, LOOP_X))};
+    at.y = lrb_load32(c, MLRTA_LOOP(m, LOOP_Y));
+    at.index = lrb_add(c, lrb_imul(c, at.y, lrb_imm(m->job->tiles_x)), at.x);
+    return at;
+}
+
 /* Trace the packets of the 16x16 tile that the loop is at. */
 LRB_INLINE void mlrta_trace_tile(lrb_ctx *c, mlrta_state *m, bool nothing)
 {
     const lrb_mem start = MLRTA_LOOP(m, LOOP_NODE);
-    lrb_r64 x = lrb_load32(c, MLRTA_LOOP(m, LOOP_X)), y = lrb_load32(c, MLRTA_LOOP(m, LOOP_Y));
-    lrb_r64 index = lrb_add(c, lrb_imul(c, y, lrb_imm(m->job->tiles_x)), x);
+    const mlrta_here at = mlrta_loop_at(c, m);
+    const lrb_r64 x = at.x, y = at.y, index = at.index;
     lrb_ptr tile = lrb_lea(c, lrb_segment_at(m->job->tiles, 0), lrb_shl(c, index, 6), 1, 0);
     lrb_ptr frame = lrb_lea(c, lrb_segment_at(m->job->frame, 0), lrb_shl(c, index, 12), 1, 0);
     mlrta_tell_complexity(m, index.value);
     m->k.tile_x = (uint32_t)(x.value - m->first_x);
     m->k.tile_y = (uint32_t)(y.value - m->first_y);
     kd16_blocks(c, &m->k, tile, frame, &start, nothing, lrb_load32(c, MLRTA_LOOP(m, LOOP_BLOCKS)));
+    if (m->job->params.shader != KERNEL_SHADER_NONE) {
+        const lrb_r64 traced = mlrta_loop_at(c, m).index;
+        shade16_tile(c, m->job, traced, lrb_load32(c, MLRTA_LOOP(m, LOOP_BLOCKS)));
+    }
 }
 
 /* The next 16x16 tile of the loop, row by row; false after the last. */

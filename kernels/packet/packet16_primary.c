@@ -3,6 +3,7 @@
  * The sixteen packets of a tile are traced one after another; a packet's directions and nearest hits live in registers.
  */
 #include "kernels/frame16.h"
+#include "kernels/shade16.h"
 #include "kernels/tile_function.h"
 #include "kernels/traversal16.h"
 #include "kernels/triangle16.h"
@@ -108,6 +109,7 @@ LRB_INLINE void packet16_tile(lrb_ctx *c, const kernel_job *job, uint32_t tile, 
         corner = lrb_lea(c, corner, lrb_imm(0), 1, 4);
     } while (lrb_jb(c, lrb_cmp_ptr(c, corner, last_corner)));
     lrb_region(c, LRB_WHOLE_TILE);
+    shade16_tile(c, job, lrb_imm(tile), lrb_imm(0xffff));
 }
 
 KERNEL_TILE_FUNCTION(packet16_primary, packet16_tile)

@@ -5,13 +5,15 @@
 #include "reports/table.h"
 #include "reports/views/mlrta_paper.h"
 
-/* One kernel on one scene, on the core model. */
+/* One kernel on one scene, on the core model: with no shader, and with the simple one. */
 typedef struct mlrta_speed {
     const char *scene, *kernel;
-    double pixels, cycles, clock_hz;
+    double pixels, clock_hz;
+    double cycles;     /* with no shader; so are the parts below */
+    double shaded;     /* with the simple shader */
     double entry;      /* the part of the cycles that entry-point searches took, 0..1 */
     double memory;     /* the part that waited for lines from beyond the first level of cache */
-    double half_width; /* of the cycles, relative; 0: exact */
+    double half_width; /* of either cycles, relative, the larger one; 0: exact */
 } mlrta_speed;
 
 /** All rows, each scene's published ones below it, then those of the other scenes. NULL if out of memory. */

@@ -34,6 +34,8 @@ def usage__wrong_words__one_line_and_exit_2(folder):
         fails(['run-kernel', 'mft-soft', *SMALL, '--samples', samples], '--samples')
     fails(['run-kernel', 'mft-primary', *SMALL, '--samples', '16'], '--samples')
     fails(['run-kernel', 'mft-primary', *SMALL, '--param', 'shrink=none'], 'shrink')
+    fails(['run-kernel', 'kd16-primary', *SMALL, '--param', 'shader=phong'], "shader: no value 'phong' (there are none, simple)")
+    fails(['run-kernel', 'kd16-shadow', *SMALL, '--param', 'shader=simple'], "no parameter 'shader'")
     fails(['run-kernel', 'mft-soft', *SMALL, '--param', 'shrink=all'], 'shrink')
     fails(['run-kernel', 'mft-primary', *SMALL, '--light-scale', 'nan'], '--light-scale')
     fails(['run-kernel', 'mft-primary', *SMALL, '--heatmap-of', 'aabb_tests'], '--heatmap-of')

@@ -397,7 +397,9 @@ def mlrta_table1__builtin_scene__frames_of_the_core_models_cycles(folder):
         cycles = stats_of(kernel, *small)['cycles']['total']
         rays = 32 * 24 * 1e9 / cycles
         assert abs(rows[kernel]['null shader, rays'] - rays / 1e6) < 0.0501 and abs(rows[kernel]['null shader'] - rays / 1024 ** 2) < 0.00501
-        assert rows[kernel]['simple shader'] is None
+        shaded = stats_of(kernel, *small, '--param', 'shader=simple')['cycles']
+        assert abs(rows[kernel]['simple shader'] - 32 * 24 * 1e9 / shaded['total'] / 1024 ** 2) < 0.00501
+        assert shaded['by_phase']['shading'] > 0 and 'shading' not in stats_of(kernel, *small)['cycles']['by_phase']
     assert rows['MLRTA 2.4 GHz P4 1 thread']['null shader'] == 70.2 and rows['MLRTA 2.4 GHz P4 1 thread']['simple shader'] == 37.8
     fails(['report', 'mlrta-table1', '--set', 'cores=2', '--out', folder + '/no'], 'cores')
 

@@ -94,7 +94,7 @@ static void params_set__not_taken__usage_error(void **state)
     (void)state;
     assert_int_equal(kernel_params_set(&p, primary->params, "shrink=none", &err), BASE_ERR_USAGE);
     assert_null(strstr(err.why, "shrink,"));
-    assert_non_null(strstr(err.why, "(there are cull_backface, max_leaf, bins)"));
+    assert_non_null(strstr(err.why, "(there are cull_backface, max_leaf, bins, shader)"));
 }
 
 static void check_samples__powers_of_four__taken(void **state)

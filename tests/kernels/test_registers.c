@@ -36,10 +36,11 @@ static sim_registers_stats analyse(const kernel_info *kernel, const kernel_param
     return stats;
 }
 
-static void check(const kernel_info *kernel, const char *scene_name, const sim_registers_stats *s)
+static void check(const kernel_info *kernel, const kernel_params *params, const char *scene_name, const sim_registers_stats *s)
 {
+    const uint64_t phases = kernel->phases | (params->shader ? UINT64_C(1) << KERNEL_PHASE_SHADING : 0);
     for (int phase = 0; phase < KERNEL_PHASE_COUNT; phase++) {
-        assert_int_equal(s->ops[phase] > 0, kernel->phases >> phase & 1);
+        assert_int_equal(s->ops[phase] > 0, phases >> phase & 1);
         for (int file = 0; file < SIM_FILES; file++) {
             const sim_pressure *p = &s->pressure[phase][file];
             if (p->stores || p->reloads)
@@ -60,7 +61,7 @@ static void check_shrinking(const kernel_info *kernel, const trace_trees *trees,
         return;
     for (params.shrink = KERNEL_SHRINK_CORNERS; params.shrink <= KERNEL_SHRINK_RAYS; params.shrink++) {
         sim_registers_stats stats = analyse(kernel, &params, trees, s, n);
-        check(kernel, s->name, &stats);
+        check(kernel, &params, s->name, &stats);
     }
 }
 
@@ -72,7 +73,18 @@ static void check_passes(const kernel_info *kernel, const trace_trees *trees, co
         return;
     params.samples = 64;
     sim_registers_stats stats = analyse(kernel, &params, trees, s, n);
-    check(kernel, s->name, &stats);
+    check(kernel, &params, s->name, &stats);
+}
+
+/* With the simple shader behind the rays. */
+static void check_shader(const kernel_info *kernel, const trace_trees *trees, const scene *s, kernel_counts *n)
+{
+    kernel_params params = kernel->defaults;
+    if (!(kernel->params >> KERNEL_PARAM_SHADER & 1))
+        return;
+    params.shader = KERNEL_SHADER_SIMPLE;
+    sim_registers_stats stats = analyse(kernel, &params, trees, s, n);
+    check(kernel, &params, s->name, &stats);
 }
 
 static void registers__every_kernel_usual_scenes__nothing_spilled(void **state)
@@ -91,10 +103,11 @@ static void registers__every_kernel_usual_scenes__nothing_spilled(void **state)
                 kernel_params params = kernel[k].defaults;
                 params.cull_backface = cull;
                 sim_registers_stats stats = analyse(&kernel[k], &params, &trees, s, &n);
-                check(&kernel[k], s->name, &stats);
+                check(&kernel[k], &params, s->name, &stats);
             }
             check_shrinking(&kernel[k], &trees, s, &n);
             check_passes(&kernel[k], &trees, s, &n);
+            check_shader(&kernel[k], &trees, s, &n);
             trace_trees_destroy(&trees);
         }
         scene_destroy(&s);

@@ -99,6 +99,8 @@ static void gather_pixels(const kernel_job *job, trace_picture *picture)
             picture->v[i] = tile->v[p.block][p.pixel];
             if (job->params.msaa)
                 picture->occlusion[i] = hash_samples(job, x, y);
+            if (job->shades_host)
+                picture->lit[i] = job->shades_host[p.tile].shade[p.block][p.pixel];
             if (!job->shadows_host)
                 continue;
             picture->occlusion[i] = job->shadows_host[p.tile].occlusion[p.block][p.pixel];

@@ -17,7 +17,7 @@ typedef struct trace_picture {
     float *t, *u, *v;
     uint32_t *occlusion; /* of kernels that trace shadows, else 0: bits of the last set of samples (of mft-msaa a hash of a pixel's samples)... */
     float *visibility;   /* ...and what is seen of the light */
-    float *filtered, *lit; /* of soft shadows, else 0: visibility as the filter leaves it, and times the shading */
+    float *filtered, *lit; /* of soft shadows, else 0: visibility as the filter leaves it, and times the shading; lit: or of a shader */
     kernel_counts counts;
     uint64_t ops[LRB_OP_COUNT]; /* COUNT: the context's histogram; RECORD: that of the events; NATIVE: 0 */
     uint64_t idle_lanes;        /* likewise */
