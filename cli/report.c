@@ -6,7 +6,7 @@
 
 #include "cli/suite.h"
 
-enum { KEY_OUT = 256, KEY_SCENE, KEY_SIZE, KEY_KERNEL, KEY_ERROR, KEY_JOBS, KEY_MACHINE, KEY_SET, KEY_NO_PICTURES, KEY_LIST, DOC_BYTES = 4096 };
+enum { KEY_OUT = 256, KEY_SCENE, KEY_SIZE, KEY_KERNEL, KEY_ERROR, KEY_CACHE, KEY_JOBS, KEY_MACHINE, KEY_SET, KEY_NO_PICTURES, KEY_LIST, DOC_BYTES = 4096 };
 
 static const struct argp_option option_table[] = {
     {"list", KEY_LIST, NULL, 0, "name the suites, and do nothing else", 0},
@@ -18,6 +18,7 @@ static const struct argp_option option_table[] = {
                                  "take cycles of the core model", 2},
     {"machine", KEY_MACHINE, "M", 0, "a machine (see lanetrace machines), or a description's path; default larrabee", 2},
     {"set", KEY_SET, "KEY=VALUE", 0, "override a field of the machine; repeatable", 2},
+    {"cache", KEY_CACHE, "DIR", 0, "keep kd-trees in DIR: what was built once is read the next time", 2},
     {"jobs", KEY_JOBS, "N", 0, "host threads; default: the suite's own, mostly all", 2},
     {"no-pictures", KEY_NO_PICTURES, NULL, 0, "tables only", 3},
     {0},
@@ -25,7 +26,7 @@ static const struct argp_option option_table[] = {
 
 typedef struct arguments {
     base_error *err;
-    const char *out, *size, *error, *jobs, *machine;
+    const char *out, *size, *error, *cache, *jobs, *machine;
     bool no_pictures, list;
     command_list suites, scenes, sets, kernels;
 } arguments;
@@ -38,6 +39,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_OUT: a->out = text; return 0;
     case KEY_SIZE: a->size = text; return 0;
     case KEY_ERROR: a->error = text; return 0;
+    case KEY_CACHE: a->cache = text; return 0;
     case KEY_JOBS: a->jobs = text; return 0;
     case KEY_MACHINE: a->machine = text; return 0;
     case KEY_NO_PICTURES: a->no_pictures = true; return 0;
@@ -102,8 +104,8 @@ static base_status prepare(const arguments *a, suite_options *o, sim_machine **m
 {
     unsigned long jobs = 0;
     base_status status = BASE_OK;
-    *o = (suite_options){.out = a->out ? a->out : "out", .no_pictures = a->no_pictures, .machine_name = a->machine, .scenes = a->scenes,
-                         .sets = a->sets, .kernels = a->kernels};
+    *o = (suite_options){.out = a->out ? a->out : "out", .no_pictures = a->no_pictures, .machine_name = a->machine, .cache = a->cache,
+                         .scenes = a->scenes, .sets = a->sets, .kernels = a->kernels};
     if (a->size)
         status = command_size(a->size, &o->width, &o->height, err);
     if (status == BASE_OK && a->error)

@@ -107,7 +107,7 @@ base_status suite_each_scene(suite *s, suite_scene_fn *measure, void *user, base
 run_options suite_run_options(const suite *s, const kernel_info *kernel, run_model model)
 {
     return (run_options){.kernel = kernel, .params = kernel->defaults, .width = s->width, .height = s->height, .model = model,
-                         .error = model == RUN_CORE ? s->options->error : 0, .jobs = s->jobs, .progress = true};
+                         .error = model == RUN_CORE ? s->options->error : 0, .jobs = s->jobs, .cache = s->options->cache, .progress = true};
 }
 
 base_status suite_add_table(suite *s, const char *suffix, report_table *table, base_error *err)

@@ -48,6 +48,7 @@ typedef struct suite_options {
     unsigned width, height, jobs;
     double error;
     bool no_pictures;
+    const char *cache; /* folder that keeps kd-trees */
     const char *machine_name;
     const sim_machine *machine; /* with the sets in force */
     command_list scenes, sets, kernels;

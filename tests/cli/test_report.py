@@ -389,6 +389,12 @@ def mlrta_tables_2_and_3__builtin_scene__counts_a_packet_as_run_alone_and_publis
         assert [r['packets of the picture'] for r in tables['Packets, tiles and searches']] == [32 * 24] * 2
 
 
+def cache__suite_twice__same_tables_one_tree(folder):
+    cache = folder + '/trees'
+    tables = [report(folder, 'mlrta-table2', *ROOMS, *words) for words in ([], ['--cache', cache], ['--cache', cache])]
+    assert tables[0] == tables[1] == tables[2] and len(os.listdir(cache)) == 1
+
+
 def mlrta_table1__builtin_scene__frames_of_the_core_models_cycles(folder):
     small = ['--scene', 'builtin:rooms-804', '--size', '32x24']
     tables = report(folder, 'mlrta-table1', *small)
