@@ -1,7 +1,6 @@
 #include "cli/suites/mlrta_runs.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 const char *const mlrta_suite_scenes[] = {"builtin:rooms-804", "builtin:conference-282k", "builtin:tower-2195k", "builtin:dragon-7m", NULL};
 const char *const mlrta_small_scenes[] = {"builtin:rooms-804", "builtin:conference-282k", NULL};
@@ -30,7 +29,7 @@ mlrta_counts mlrta_counts_of(const run_result *result)
     };
 }
 
-static base_status count_kernel(const suite *s, const scene *input, const char *kernel, mlrta_counts *out, base_error *err)
+base_status mlrta_count_kernel(const suite *s, const scene *input, const char *kernel, mlrta_counts *out, base_error *err)
 {
     const run_options options = suite_run_options(s, kernel_find(kernel), RUN_NATIVE);
     run_result result = {0};
@@ -41,37 +40,14 @@ static base_status count_kernel(const suite *s, const scene *input, const char *
     return status;
 }
 
-typedef struct measured {
-    const char *const *kernels;
-    mlrta_row *rows;
-    size_t count;
-} measured;
-
-static base_status measure_scene(suite *s, const suite_scene *on, void *user, base_error *err)
-{
-    measured *m = user;
-    mlrta_row *row = &m->rows[m->count++];
-    base_status status = BASE_OK;
-    *row = (mlrta_row){.scene = on->name, .packets = mlrta_packets(s)};
-    for (int a = 0; status == BASE_OK && a < MLRTA_ALGORITHMS; a++)
-        status = count_kernel(s, on->scene, m->kernels[a], &row->counts[a], err);
-    return status;
-}
-
-base_status mlrta_measure_table(suite *s, unsigned number, const char *const kernels[MLRTA_ALGORITHMS], base_error *err)
+base_status mlrta_add_tables(suite *s, unsigned number, const char *const kernels[MLRTA_ALGORITHMS], const mlrta_row *rows, base_error *err)
 {
     char caption[200];
-    measured m = {.kernels = kernels, .rows = calloc(s->scene_count, sizeof *m.rows)};
-    base_status status = m.rows ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, s->info->name, "out of memory");
     snprintf(caption, sizeof caption, "%ux%u pixels; no MLRT is kernel %s, MLRT is %s, both with their default parameters.", s->width,
              s->height, kernels[MLRTA_WITHOUT], kernels[MLRTA_WITH]);
-    if (status == BASE_OK)
-        status = suite_each_scene(s, measure_scene, &m, err);
     report_page_add_heading(s->page, 1, "Tables");
+    base_status status = suite_add_table(s, "", mlrta_counts_table(number, rows, s->scene_count, caption), err);
     if (status == BASE_OK)
-        status = suite_add_table(s, "", mlrta_counts_table(number, m.rows, m.count, caption), err);
-    if (status == BASE_OK)
-        status = suite_add_table(s, "-units", mlrta_counts_units(m.rows, m.count, caption), err);
-    free(m.rows);
+        status = suite_add_table(s, "-units", mlrta_counts_units(rows, s->scene_count, caption), err);
     return status;
 }

@@ -17,7 +17,10 @@ double mlrta_packets(const suite *s);
 /** What a run has counted. */
 mlrta_counts mlrta_counts_of(const run_result *result);
 
-/** Measure a suite that reproduces Table 2 or 3, with these kernels. */
-base_status mlrta_measure_table(suite *s, unsigned number, const char *const kernels[MLRTA_ALGORITHMS], base_error *err);
+/** Run a kernel with its default parameters, and take its counts. */
+base_status mlrta_count_kernel(const suite *s, const scene *input, const char *kernel, mlrta_counts *out, base_error *err);
+
+/** Add the tables of a suite that reproduces Table 2 or 3 with these kernels, a row a scene. */
+base_status mlrta_add_tables(suite *s, unsigned number, const char *const kernels[MLRTA_ALGORITHMS], const mlrta_row *rows, base_error *err);
 
 #endif

@@ -389,6 +389,20 @@ def mlrta_tables_2_and_3__builtin_scene__counts_a_packet_as_run_alone_and_publis
         assert [r['packets of the picture'] for r in tables['Packets, tiles and searches']] == [32 * 24] * 2
 
 
+def mlrta_table3__builtin_scene__tests_by_what_searches_found_add_up(folder):
+    rows = report(folder, 'mlrta-table3', *ROOMS)['Tests of shadow rays, by what the search of their tile has found']
+    primary, root = counts_of('kd16-primary', *ROOMS), counts_of('kd16-shadow', *ROOMS)
+    entry = [counts_of('mlrta-' + rays, *ROOMS, '--param', 'its=16') for rays in ('primary', 'shadow')]
+    assert sum(r['packets'] for r in rows) == root['units']['hard_packets']
+    for counter, name in (('isect_tests', 'tests'), ('traversed_cells', 'cells')):
+        for column, expected in (('no MLRT', root[counter] - primary[counter]), ('MLRT', entry[1][counter] - entry[0][counter])):
+            total = sum(r['%s, %s' % (name, column)] * r['packets'] for r in rows if r['packets'])
+            assert abs(total - expected) <= 0.0051 * root['units']['hard_packets'], (name, column)
+    by_found = {r['found']: r for r in rows}
+    assert by_found['no bounds: packets start at the root']['tests, change'] in (0, None)
+    assert by_found['nothing in the way']['tests, MLRT'] in (0, None)
+
+
 def cache__suite_twice__same_tables_one_tree(folder):
     cache = folder + '/trees'
     tables = [report(folder, 'mlrta-table2', *ROOMS, *words) for words in ([], ['--cache', cache], ['--cache', cache])]
