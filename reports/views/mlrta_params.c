@@ -1,5 +1,7 @@
 #include "reports/views/mlrta_params.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +16,10 @@ static void add_row(report_table *t, const mlrta_params_row *row, const mlrta_pa
     report_table_add_text(t, row->kind);
     report_table_add_text(t, row->setting);
     report_table_add_real(t, row->nodes);
+    for (int a = 0; a < MLRTA_ALGORITHMS; a++) {
+        report_table_add_real(t, row->cycles[a] / 1e6);
+        report_table_add_real(t, 100 * (row->cycles[a] / defaults->cycles[a] - 1));
+    }
     report_table_add_real(t, without->cells / packets);
     report_table_add_real(t, 100 * (without->cells / base[MLRTA_WITHOUT].cells - 1));
     report_table_add_real(t, with->cells / packets);
@@ -33,6 +39,10 @@ report_table *mlrta_params_table(const mlrta_params_row *rows, size_t count, con
     report_table_add_column(t, &(report_column){.name = "varied"});
     report_table_add_column(t, &(report_column){.name = "setting"});
     report_table_add_real_column(t, "tree nodes", NULL, 0);
+    report_table_add_real_column(t, "cycles, no MLRT", "million", 1);
+    report_table_add_real_column(t, "no MLRT, cycles against defaults", "%", 1);
+    report_table_add_real_column(t, "cycles, MLRT", "million", 1);
+    report_table_add_real_column(t, "MLRT, cycles against defaults", "%", 1);
     report_table_add_real_column(t, "cells, no MLRT", "per packet", 2);
     report_table_add_real_column(t, "no MLRT, against defaults", "%", 1);
     report_table_add_real_column(t, "cells, MLRT", "per packet", 2);
@@ -58,6 +68,40 @@ report_table *mlrta_params_table(const mlrta_params_row *rows, size_t count, con
     report_table_add_note(t, note);
     report_table_add_note(t, "Cells are inner nodes and leaves. A setting that packets from the root do not have leaves their columns "
                              "as they are. All settings hit the same; only the work differs.");
+    return t;
+}
+
+/* In percent, less 100: the geometric mean over the scenes of a setting's count or cycles over those of the defaults. */
+static double mean_change(const mlrta_params_row *rows, size_t scenes, size_t settings, size_t setting, mlrta_algorithm a, bool cycles)
+{
+    double sum = 0;
+    for (size_t i = 0; i < scenes; i++) {
+        const mlrta_params_row *defaults = &rows[i * settings], *row = &defaults[setting];
+        sum += cycles ? log(row->cycles[a] / defaults->cycles[a]) : log(row->counted.counts[a].cells / defaults->counted.counts[a].cells);
+    }
+    return 100 * (exp(sum / (double)scenes) - 1);
+}
+
+report_table *mlrta_params_means(const mlrta_params_row *rows, size_t scenes, size_t settings, const char *caption)
+{
+    report_table *t = report_table_create("What settings change against the defaults, means over the scenes");
+    report_table_set_caption(t, caption);
+    report_table_add_column(t, &(report_column){.name = "varied"});
+    report_table_add_column(t, &(report_column){.name = "setting"});
+    report_table_add_real_column(t, "cycles, MLRT", "%", 1);
+    report_table_add_real_column(t, "cycles, no MLRT", "%", 1);
+    report_table_add_real_column(t, "cells, MLRT", "%", 1);
+    report_table_add_real_column(t, "cells, no MLRT", "%", 1);
+    for (size_t i = 1; i < settings; i++) {
+        report_table_begin_row(t);
+        report_table_add_text(t, rows[i].kind);
+        report_table_add_text(t, rows[i].setting);
+        for (int cells = 0; cells < 2; cells++) {
+            report_table_add_real(t, mean_change(rows, scenes, settings, i, MLRTA_WITH, !cells));
+            report_table_add_real(t, mean_change(rows, scenes, settings, i, MLRTA_WITHOUT, !cells));
+        }
+    }
+    report_table_add_note(t, "Geometric means of the quotients, less 1. What is below 0 takes less than the defaults do.");
     return t;
 }
 

@@ -11,12 +11,16 @@ typedef struct mlrta_params_row {
     const char *kind;    /* what is varied: "tiles" and so on */
     const char *setting; /* "sf=4 mts=8" */
     mlrta_row counted;   /* with the scene, the same pointer in all rows of one */
+    double cycles[MLRTA_ALGORITHMS];
     double nodes;        /* of the tree */
     unsigned parts, least; /* into which a tile is split, and the edge in pixels from which it is not: in the plot; 0: not in it */
 } mlrta_params_row;
 
 /** NULL if out of memory. */
 report_table *mlrta_params_table(const mlrta_params_row *rows, size_t count, const char *caption);
+
+/** Geometric means over the scenes of what the settings change: rows[scene * settings + setting], the defaults first. NULL if out of memory. */
+report_table *mlrta_params_means(const mlrta_params_row *rows, size_t scenes, size_t settings, const char *caption);
 
 enum { MLRTA_PARAMS_POINTS = 8 }; /* of a curve, at most */
 

@@ -452,7 +452,9 @@ def mlrta_culling__builtin_scene__only_corner_rays_lose_hits(folder):
 
 
 def mlrta_params__builtin_scene__each_setting_as_run_alone(folder):
-    rows = report(folder, 'mlrta-params', *ROOMS)['Parameters of multi-level ray tracing and of its tree']
+    tables = report(folder, 'mlrta-params', *ROOMS)
+    rows = tables['Parameters of multi-level ray tracing and of its tree']
+    means = {r['setting']: r for r in tables['What settings change against the defaults, means over the scenes']} # of one scene
     by_setting = {r['setting']: r for r in rows}
     assert os.path.exists(folder + '/out/mlrta-params-splitting.png') == HAVE_GNUPLOT
     defaults = by_setting['defaults']
@@ -460,7 +462,10 @@ def mlrta_params__builtin_scene__each_setting_as_run_alone(folder):
     for setting in ('sf=4 mts=8', 'covered_planes=0', 'mailbox=0'):
         words = [word for assignment in setting.split() for word in ('--param', assignment)]
         n = counts_of('mlrta-primary', *ROOMS, *words)
+        cycles = stats_of('mlrta-primary', *ROOMS, '--model', 'issue', *words)['cycles']['total']
+        assert abs(by_setting[setting]['cycles, MLRT'] - cycles / 1e6) < 0.0501, setting
         assert abs(by_setting[setting]['cells, MLRT'] - n['traversed_cells'] / (32 * 24)) < 0.00501, setting
+        assert abs(means[setting]['cycles, MLRT'] - by_setting[setting]['MLRT, cycles against defaults']) < 0.01, setting
         assert abs(by_setting[setting]['tests, MLRT'] - n['isect_tests'] / (32 * 24)) < 0.00501, setting
     n = counts_of('kd16-primary', *ROOMS, '--param', 'covered_planes=0')
     assert abs(by_setting['covered_planes=0']['cells, no MLRT'] - n['traversed_cells'] / (32 * 24)) < 0.00501
