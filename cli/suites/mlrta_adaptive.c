@@ -282,7 +282,7 @@ const suite_info suite_mlrta_adaptive = {
     .about = "The size of the subtree below a tile's entry point says how complex the tile's view is (Reshetov, Soupikov and Hurley 2005, 4.2). "
              "Tiles get samples by it; rays and cycles are compared with those of a picture of the same error whose pixels all have the same "
              "samples.",
-    .scenes = mlrta_small_scenes,
+    .scenes = mlrta_suite_scenes,
     .size = 512,
     .measure = measure,
 };

@@ -2,7 +2,7 @@
  *
  *   bench_algorithms [--size N] [--repeat N] [SCENE...]
  *
- * A SCENE is what scene_open takes (default builtin:rooms-804, hall-60k and conference-282k), the image N x N pixels (default 512). One host
+ * A SCENE is what scene_open takes (default builtin:rooms-804, hall-60k, conference-282k and tower-2195k), the image N x N pixels (default 512). One host
  * thread. All kernels must hit the same, bit for bit, or the benchmark fails. Times are of the processor: of the native kernels, taking
  * turns, the median of --repeat runs (default 5); of a tree's building, once. Cycles are those of the core model, machine larrabee. Peak
  * memory is that of a process that opens the scene, builds the tree and traces the image natively. Rows of CSV on stdout; lines of
@@ -181,7 +181,7 @@ static int bench_scene(const char *spec, const sim_machine *machine, const measu
 
 int main(int argc, char **argv)
 {
-    static const char *const scenes[] = {"builtin:rooms-804", "builtin:hall-60k", "builtin:conference-282k"};
+    static const char *const scenes[] = {"builtin:rooms-804", "builtin:hall-60k", "builtin:conference-282k", "builtin:tower-2195k"};
     measure_picture o = {.size = 512, .repeat = 5};
     sim_machine *machine = NULL;
     base_error err = {0};
