@@ -41,7 +41,7 @@ static int sample_part(net *n, int x0, int y0, int z0)
     double reach = reach_of(n, PART);
     double rough = skin_field_rough(n->field, n->near_block, n->near_block_count, middle), band = n->cell * n->field->slope;
     int far = fabs(rough) > reach * n->field->slope + n->relief;
-    size_t count = far ? 0 : skin_field_near(n->field, n->near_block, n->near_block_count, middle, reach, n->near_part);
+    size_t count = far ? 0 : skin_field_near(n->field, n->near_block, n->near_block_count, middle, rough, reach, n->near_part);
     for (int z = z0; z < z0 + PART; z++)
         for (int y = y0; y < y0 + PART; y++)
             for (int x = x0; x < x0 + PART; x++)
@@ -149,9 +149,10 @@ static void draw_blocks(net *n)
         n->first[1] = k / blocks[0] % blocks[1] * BLOCK - 1;
         n->first[2] = k / blocks[0] / blocks[1] * BLOCK - 1;
         scene_point middle = lattice_point(n, (SAMPLES - 1) / 2.0, (SAMPLES - 1) / 2.0, (SAMPLES - 1) / 2.0);
-        if (fabs(skin_field_rough(f, n->all, f->count, middle)) > reach * f->slope + f->relief)
+        double rough = skin_field_rough(f, n->all, f->count, middle);
+        if (fabs(rough) > reach * f->slope + f->relief)
             continue;
-        n->near_block_count = skin_field_near(f, n->all, f->count, middle, reach, n->near_block);
+        n->near_block_count = skin_field_near(f, n->all, f->count, middle, rough, reach, n->near_block);
         n->relief = skin_field_relief(n->near_block, n->near_block_count);
         draw_block(n);
     }

@@ -99,19 +99,24 @@ void skin_field_end(skin_field *f)
     f->nearest = NULL;
 }
 
-/* Distance from the skin about one bone, in the limb's own space; *t says where along the bone. */
-static double bone_distance(const skin_bone *bone, scene_point p, double *t)
+/* Distance from the skin about one bone, in the limb's own space; *t says where along the bone. FAR if it is plain without a
+ * root that the distance is above `best`. */
+static double bone_distance(const skin_bone *bone, scene_point p, double best, double *t)
 {
     scene_point to = scene_point_sub(p, bone->from);
     double at = scene_point_dot(to, bone->step) * bone->per_length2;
     at = at < 0.0 ? 0.0 : at > 1.0 ? 1.0 : at;
     *t = at;
-    return scene_point_length(scene_point_sub(to, scene_point_scale(bone->step, at))) - (bone->radius + at * bone->growth);
+    scene_point out = scene_point_sub(to, scene_point_scale(bone->step, at));
+    double radius = bone->radius + at * bone->growth, most = best + radius;
+    if (scene_point_dot(out, out) > 1.000001 * (most * most) && most > 0.0)
+        return FAR;
+    return scene_point_length(out) - radius;
 }
 
 static scene_point limb_space(const scene_limb *limb, scene_point p)
 {
-    return scene_at(p.x, p.y, p.z / limb->width);
+    return limb->width == 1.0 ? p : scene_at(p.x, p.y, p.z / limb->width); /* most are round, and a division takes its time */
 }
 
 /* From a distance in the limb's space to one that no point in space falls short of. */
@@ -145,7 +150,7 @@ static size_t find_nearest(const skin_field *f, const skin_bone *const *list, si
         scene_point q = limb_space(limb, p);
         skin_nearest best = {list[i], 0, FAR};
         for (; i < count && list[i]->limb == limb; i++) {
-            double t, d = bone_distance(list[i], q, &t);
+            double t, d = bone_distance(list[i], q, best.distance, &t);
             if (d < best.distance)
                 best = (skin_nearest){list[i], t, d};
         }
@@ -194,18 +199,18 @@ double skin_field_relief(const skin_bone *const *list, size_t count)
     return most;
 }
 
-size_t skin_field_near(const skin_field *f, const skin_bone *const *from, size_t count, scene_point p, double reach,
-    const skin_bone **list)
+size_t skin_field_near(const skin_field *f, const skin_bone *const *from, size_t count, scene_point p, double rough,
+    double reach, const skin_bone **list)
 {
     /* Within reach the field and a limb's distance each change by reach * slope + relief. Far limbs melt to at most one blend
      * below the nearest of them, and stop mattering one blend above a near one, itself at most one above the field. */
     double relief = skin_field_relief(from, count), blend = 0;
     for (size_t i = 0; i < count; i++)
         blend = from[i]->limb->blend > blend ? from[i]->limb->blend : blend;
-    double margin = fabs(skin_field_rough(f, from, count, p)) + 2.0 * (reach * f->slope + relief) + 3.0 * blend;
+    double margin = fabs(rough) + 2.0 * (reach * f->slope + relief) + 3.0 * blend;
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
-        double t, d = bone_distance(from[i], limb_space(from[i]->limb, p), &t) * limb_scale(from[i]->limb);
+        double t, d = bone_distance(from[i], limb_space(from[i]->limb, p), FAR, &t) * limb_scale(from[i]->limb);
         if (d <= margin)
             list[kept++] = from[i];
     }

@@ -49,8 +49,10 @@ double skin_field_relief(const skin_bone *const *list, size_t count);
 /**
  * The bones that can matter within `reach` of a point: those in `from`, less the far ones, into `list` (which may be
  * `from`). The field from them is the same to the bit as that from all.
+ *
+ * @param rough  skin_field_rough of these at p
  */
-size_t skin_field_near(const skin_field *f, const skin_bone *const *from, size_t count, scene_point p, double reach,
-    const skin_bone **list);
+size_t skin_field_near(const skin_field *f, const skin_bone *const *from, size_t count, scene_point p, double rough,
+    double reach, const skin_bone **list);
 
 #endif
