@@ -9,22 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/kernels/twin_unit.h"
+
 /* ---- one ray and one triangle ---- */
 
-/* 1/x from an estimate of 12 significant bits and two Newton steps. */
-static float reciprocal(float x)
-{
-    float estimate = 1.0f / x;
-    uint32_t bits;
-    memcpy(&bits, &estimate, sizeof bits);
-    bits &= 0xfffff000u;
-    memcpy(&estimate, &bits, sizeof bits);
-    for (int step = 0; step < 2; step++)
-        estimate *= fmaf(-estimate, x, 2.0f);
-    return estimate;
-}
-
-static float dot(const float a[3], const float b[3])
+float twin_dot(const float a[3], const float b[3])
 {
     return fmaf(a[2], b[2], fmaf(a[1], b[1], a[0] * b[0]));
 }
@@ -89,18 +78,18 @@ int twin_intersect(const twin_triangle *triangle, int cull, const float directio
     if (cull && !(triangle->plane < 0.0f))
         return 0;
     for (int i = 0; i < 3; i++)
-        w[i] = dot(direction, triangle->edge[i]);
+        w[i] = twin_dot(direction, triangle->edge[i]);
     int front = w[0] <= 0.0f && w[1] <= 0.0f && w[2] <= 0.0f;
     int back = !cull && w[0] >= 0.0f && w[1] >= 0.0f && w[2] >= 0.0f;
     float sum = (w[0] + w[1]) + w[2];
     if (!(front || back) || sum == 0.0f)
         return 0;
-    float t = reciprocal(dot(direction, triangle->normal)) * triangle->plane;
+    float t = twin_reciprocal(twin_dot(direction, triangle->normal)) * triangle->plane;
     if (!(t > 0.0f) || !(t < best->t || (t == best->t && triangle->id < best->id)))
         return 0;
     if (!in_bounds(triangle, direction, t))
         return 0;
-    float scale = reciprocal(sum);
+    float scale = twin_reciprocal(sum);
     *best = (twin_hit){.id = triangle->id, .t = t, .u = w[1] * scale, .v = w[2] * scale};
     return 1;
 }
@@ -151,19 +140,6 @@ trace_picture twin_brute_force(const bvh *tree, const scene_camera *camera, unsi
 
 /* ---- traversal: a unit is a packet of 16 rays, or a group of 16 frusta or of 16 packets ---- */
 
-/* The interval of directions of one lane, and what the box test makes of it. */
-typedef struct twin_lane {
-    float lo[3], hi[3]; /* widened */
-    float near_rcp[3], back_rcp[3], far_rcp[3];
-    float limit;
-} twin_lane;
-
-typedef struct twin_unit {
-    twin_lane lane[16];
-    unsigned active;
-    int some_zero; /* a lane's interval holds 0: all lanes use the tight test */
-} twin_unit;
-
 typedef struct twin_state {
     twin_kind kind;
     const kernel_job *job;
@@ -206,61 +182,14 @@ static void unit_intervals(const twin_state *s, twin_unit *u, int frusta, unsign
         }
 }
 
-static int sign_of(const twin_lane *l, int axis)
-{
-    return l->lo[axis] > 0.0f ? 1 : l->hi[axis] < 0.0f ? -1 : 0;
-}
-
-/* Whether the active lanes hold both signs on some axis. */
-static int signs_mixed(const twin_unit *u)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        int seen = 0;
-        for (unsigned i = 0; i < 16; i++)
-            if (u->active >> i & 1)
-                seen |= sign_of(&u->lane[i], axis) > 0 ? 1 : 2;
-        if (seen == 3)
-            return 1;
-    }
-    return 0;
-}
-
-/* Whether some active lane has no sign on some axis. */
-static int signs_lacking(const twin_unit *u)
-{
-    int lacking = 0;
-    for (unsigned i = 0; i < 16; i++)
-        for (int axis = 0; axis < 3; axis++)
-            lacking |= (u->active >> i & 1) && sign_of(&u->lane[i], axis) == 0;
-    return lacking;
-}
-
-static void unit_reciprocals(twin_unit *u)
-{
-    for (unsigned i = 0; i < 16; i++)
-        for (int axis = 0; axis < 3; axis++) {
-            twin_lane *l = &u->lane[i];
-            int negative = sign_of(l, axis) < 0;
-            l->limit = INFINITY;
-            l->far_rcp[axis] = reciprocal(negative ? l->hi[axis] : l->lo[axis]);
-            l->near_rcp[axis] = reciprocal(u->some_zero ? fmaxf(l->hi[axis], 1e-18f) : negative ? l->lo[axis] : l->hi[axis]);
-            l->back_rcp[axis] = reciprocal(fminf(l->lo[axis], -1e-18f));
-        }
-}
-
-static void count_path(twin_state *s, int some_zero, int mixed)
-{
-    s->n->n[some_zero ? KERNEL_units_zero : mixed ? KERNEL_units_blend : KERNEL_units_common]++;
-}
-
 static void unit_start(twin_state *s, unsigned active)
 {
     twin_unit *u = &s->unit;
     unit_intervals(s, u, s->kind == TWIN_FRUSTA, s->block);
     u->active = active;
-    u->some_zero = signs_lacking(u);
-    unit_reciprocals(u);
-    count_path(s, u->some_zero, signs_mixed(u));
+    u->some_zero = twin_signs_lacking(u);
+    twin_unit_reciprocals(u);
+    twin_count_path(s->n, u->some_zero, twin_signs_mixed(u));
 }
 
 /* The limits of a group's rays: their nearest hits, and none for what is no pixel. */
@@ -278,38 +207,18 @@ static void group_start(twin_state *s, unsigned active)
     int some_zero = 0;
     unit_intervals(s, u, 1, 0);
     u->active = active;
-    const int mixed = signs_lacking(u) || signs_mixed(u);
+    const int mixed = twin_signs_lacking(u) || twin_signs_mixed(u);
     for (unsigned f = 0; f < 16; f++) {
         unit_intervals(s, &s->packet[f], 0, f);
         s->packet[f].active = active >> f & 1 ? 0xffff : 0;
-        some_zero |= mixed && signs_lacking(&s->packet[f]);
+        some_zero |= mixed && twin_signs_lacking(&s->packet[f]);
     }
     for (unsigned f = 0; f < 16; f++) {
         s->packet[f].some_zero = some_zero;
-        unit_reciprocals(&s->packet[f]);
+        twin_unit_reciprocals(&s->packet[f]);
     }
     group_limits(s);
-    count_path(s, some_zero, mixed);
-}
-
-/* One lane against one box; the entry distance in *entry. */
-static int lane_meets(const twin_lane *l, int some_zero, const bvh_node *box, const float origin[3], float *entry)
-{
-    float e = 0.0f, x = l->limit;
-    for (int axis = 0; axis < 3; axis++) {
-        float lo = box->min[axis] - origin[axis], hi = box->max[axis] - origin[axis];
-        int sign = sign_of(l, axis);
-        if (some_zero) {
-            e = fmaxf(e, fmaxf(l->near_rcp[axis] * lo, l->back_rcp[axis] * hi));
-            if (sign != 0)
-                x = fminf(x, fmaxf(l->far_rcp[axis] * lo, l->far_rcp[axis] * hi));
-        } else {
-            e = fmaxf(e, l->near_rcp[axis] * (sign > 0 ? lo : hi));
-            x = fminf(x, l->far_rcp[axis] * (sign > 0 ? hi : lo));
-        }
-    }
-    *entry = e;
-    return e <= x;
+    twin_count_path(s->n, some_zero, mixed);
 }
 
 static unsigned unit_meets(twin_state *s, const twin_unit *u, const bvh_node *box, unsigned m, float entry[16])
@@ -318,7 +227,7 @@ static unsigned unit_meets(twin_state *s, const twin_unit *u, const bvh_node *bo
     s->n->n[KERNEL_aabb_tests]++;
     for (unsigned i = 0; i < 16; i++)
         if (m >> i & 1)
-            hit |= (unsigned)lane_meets(&u->lane[i], u->some_zero, box, s->job->constants_host->origin_box, &entry[i]) << i;
+            hit |= (unsigned)twin_lane_meets(&u->lane[i], u->some_zero, box, s->job->constants_host->origin_box, &entry[i]) << i;
     return hit;
 }
 
@@ -368,8 +277,8 @@ static unsigned survivors(const twin_state *s, const twin_triangle *triangle, un
                 float d[3];
                 for (int axis = 0; axis < 3; axis++)
                     d[axis] = s->first_ray[f][axis] + k->delta[axis][corners[corner]];
-                smallest = fminf(smallest, dot(d, e));
-                largest = fmaxf(largest, dot(d, e));
+                smallest = fminf(smallest, twin_dot(d, e));
+                largest = fmaxf(largest, twin_dot(d, e));
             }
             front &= smallest <= guard;
             back &= largest >= -guard;

@@ -30,6 +30,9 @@ typedef struct twin_hit {
 /** No hit: id JOB_NO_HIT, t infinite, u and v 0. */
 twin_hit twin_hit_none(void);
 
+/** a.b as the kernels form it: a product and two fused multiply-adds, x to z. */
+float twin_dot(const float a[3], const float b[3]);
+
 /** @param reach  half the widening of directions in box tests, of the job's constants */
 twin_triangle twin_triangle_of(const bvh_triangle *record, const float origin[3], float reach);
 
