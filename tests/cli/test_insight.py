@@ -27,7 +27,7 @@ def annotate__source_lines__as_written_and_sum_to_the_total(folder):
         assert text.startswith('mft-primary on rooms-804') and number(text.split(': ')[1].split()[0]) == stats['cycles']['total']
         sources = re.split(r'^(kernels/[\w/.]+): ([\d,]+) cycles, [\d.]+ %$', text, flags=re.MULTILINE)
         assert set(sources[1::3]) == {'kernels/slab16.h', 'kernels/traversal16.h', 'kernels/triangle16.h', 'kernels/rays16.h',
-                                      'kernels/mft/corner_cull.h', 'kernels/mft/group_primary.h'}
+                                      'kernels/mft/corner_cull.h', 'kernels/mft/group_primary.h', 'kernels/frame16.h'}
         ops = 0
         for path, cycles, body in zip(sources[1::3], sources[2::3], sources[3::3]):
             rows = [(line[:14].strip(), line[23:37].strip(), line[70:75].strip(), line[77:]) for line in body.strip('\n').splitlines()[1:]]
