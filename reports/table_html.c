@@ -1,6 +1,10 @@
 /* Tables as a fragment of HTML. */
 #include "reports/table_data.h"
 
+#include <string.h>
+
+enum { LONGEST_LINE = 60 }; /* bytes */
+
 static void put_element(FILE *out, const char *start, const char *text, const char *end)
 {
     fputs(start, out);
@@ -34,12 +38,14 @@ static void put_header(const report_table *t, FILE *out)
     fputs("</tr>\n</thead>\n", out);
 }
 
+/* A cell stays on one line unless it holds whole sentences. */
 static void put_cell(const table_column *c, const table_cell *cell, bool heads_row, FILE *out)
 {
     char number[REPORT_NUMBER_BYTES];
-    const char *element = heads_row ? "th" : "td";
-    fprintf(out, "<%s%s%s>", element, heads_row ? " scope=\"row\"" : "", class_of(c->align));
-    report_text_print_html(out, table_cell_shown(c, cell, number));
+    const char *element = heads_row ? "th" : "td", *text = table_cell_shown(c, cell, number);
+    const char *class = c->kind == REPORT_TEXT && strlen(text) > LONGEST_LINE ? " class=\"prose\"" : class_of(c->align);
+    fprintf(out, "<%s%s%s>", element, heads_row ? " scope=\"row\"" : "", class);
+    report_text_print_html(out, text);
     fprintf(out, "</%s>", element);
 }
 
