@@ -27,7 +27,11 @@ typedef struct start {
    one of them at a time; to the rows that the filter reads it writes what is there. */
 enum { TILE_LOCKS = 64 };
 
-/* One simulated core for each stratum: what its branch predictor has learnt depends on the draws alone. */
+/* The first unit and the last are like no other: threads that begin together from empty caches, threads that run out of work. They are
+   always simulated, each on a core of its own, and the sample is of those between. */
+enum { ENDS = 2, SAMPLERS = SIM_SAMPLE_STRATA + ENDS };
+
+/* One simulated core for each stratum and end: what its branch predictor has learnt depends on the draws alone. */
 typedef struct sampler {
     const run_result *result;
     recorder_input input;
@@ -52,14 +56,15 @@ typedef struct sampled_run {
     size_t tiles, units, rounds; /* rounds: as many as may be needed */
     double *tile_size;  /* cycles of a tile in `count` */
     double *unit_size, *unit_lines;
-    sim_sample *sample;
-    start *starts;      /* SIM_SAMPLE_STRATA for each round */
+    sim_sample *sample; /* of the units but the ends: its unit 0 is unit 1 */
+    start *starts;      /* SIM_SAMPLE_STRATA for each round, then the ends */
     size_t *by_tile;    /* of the starts, by the tile where they are taken; starts_count of them */
     size_t starts_count;
-    sampler samplers[SIM_SAMPLE_STRATA];
+    sampler samplers[SAMPLERS];
     pthread_mutex_t locks[TILE_LOCKS];
-    size_t measured;    /* of the starts */
+    size_t measured;    /* of the starts but the ends */
     size_t round;       /* that is being measured: its first start */
+    double ends_cycles;
 } sampled_run;
 
 /* First tile of the warm-up of a unit. */
@@ -159,7 +164,7 @@ static void measure_unit(void *user, size_t which, unsigned worker)
 {
     sampled_run *r = user;
     sampler *s = &r->samplers[which];
-    const start *from = &r->starts[r->round + which];
+    const start *from = which < SIM_SAMPLE_STRATA ? &r->starts[r->round + which] : &r->starts[r->starts_count - SAMPLERS + which];
     const sim_core_feed feed = {.next = next_tile, .done = tile_done, .user = s};
     (void)worker;
     s->first = from->unit * RUN_SAMPLE_UNIT;
@@ -171,16 +176,20 @@ static void measure_unit(void *user, size_t which, unsigned worker)
     s->status = sim_core_run(s->core, &feed, &s->error);
 }
 
-/* Simulate the units of a round side by side. */
+/* Simulate the units of a round side by side, with the first round the ends. */
 static base_status measure_round(sampled_run *r, base_error *err)
 {
+    const size_t count = r->measured == 0 ? SAMPLERS : SIM_SAMPLE_STRATA;
     r->round = r->measured;
-    base_parallel_for(r->result->options.jobs, SIM_SAMPLE_STRATA, measure_unit, r);
-    for (size_t i = 0; i < SIM_SAMPLE_STRATA; i++) {
+    base_parallel_for(r->result->options.jobs, count, measure_unit, r);
+    for (size_t i = 0; i < count; i++) {
         const sampler *s = &r->samplers[i];
         if (s->status != BASE_OK)
             return base_fail(err, s->status, s->error.what, "%s", s->error.why);
-        sim_sample_add(r->sample, r->starts[r->round + i].unit, (double)s->cycles);
+        if (i < SIM_SAMPLE_STRATA)
+            sim_sample_add(r->sample, r->starts[r->round + i].unit - 1, (double)s->cycles);
+        else
+            r->ends_cycles += (double)s->cycles;
     }
     r->measured += SIM_SAMPLE_STRATA;
     return BASE_OK;
@@ -215,7 +224,7 @@ static void warm_all(sampled_run *r, warm_pass *pass, lrb_ctx *ctx)
         lrb_ctx_end(ctx);
         r->unit_lines[tile / RUN_SAMPLE_UNIT] += (double)(pass->lines - before);
     }
-    sim_sample_set_second(r->sample, r->unit_lines);
+    sim_sample_set_second(r->sample, r->unit_lines + 1);
 }
 
 static base_status warm_caches(sampled_run *r, base_error *err)
@@ -251,28 +260,35 @@ static size_t rounds_worthwhile(const sampled_run *r)
     return rounds < RUN_SAMPLE_ROUNDS ? rounds : RUN_SAMPLE_ROUNDS;
 }
 
+static base_status add_start(sampled_run *r, size_t unit, base_error *err)
+{
+    start *from = &r->starts[r->starts_count++];
+    from->unit = unit;
+    return sim_contents_create(r->result->machine, &from->contents, err);
+}
+
 /* Draw the units that may be simulated. */
 static base_status draw_units(sampled_run *r, base_error *err)
 {
     const size_t most = rounds_worthwhile(r);
-    r->starts = calloc(most * SIM_SAMPLE_STRATA + 1, sizeof *r->starts);
-    r->by_tile = calloc(most * SIM_SAMPLE_STRATA + 1, sizeof *r->by_tile);
+    base_status status = BASE_OK;
+    r->starts = calloc(most * SIM_SAMPLE_STRATA + ENDS, sizeof *r->starts);
+    r->by_tile = calloc(most * SIM_SAMPLE_STRATA + ENDS, sizeof *r->by_tile);
     if (!r->starts || !r->by_tile)
         return base_fail(err, BASE_ERR_NOMEM, "--error", "out of memory for %zu units", r->units);
-    for (; r->rounds < most; r->rounds++) {
+    for (; status == BASE_OK && r->rounds < most; r->rounds++) {
         size_t units[SIM_SAMPLE_STRATA];
         if (sim_sample_draw(r->sample, units) < SIM_SAMPLE_STRATA)
             break; /* a stratum of few units is drawn whole */
-        for (size_t i = 0; i < SIM_SAMPLE_STRATA; i++) {
-            start *from = &r->starts[r->starts_count++];
-            from->unit = units[i];
-            base_status status = sim_contents_create(r->result->machine, &from->contents, err);
-            if (status != BASE_OK)
-                return status;
-        }
+        for (size_t i = 0; status == BASE_OK && i < SIM_SAMPLE_STRATA; i++)
+            status = add_start(r, units[i] + 1, err);
     }
-    order_starts(r);
-    return BASE_OK;
+    const size_t ends[ENDS] = {0, r->units - 1};
+    for (size_t i = 0; status == BASE_OK && i < ENDS; i++)
+        status = add_start(r, ends[i], err);
+    if (status == BASE_OK)
+        order_starts(r);
+    return status;
 }
 
 static base_status lay_out(sampled_run *r, base_error *err)
@@ -288,10 +304,12 @@ static base_status lay_out(sampled_run *r, base_error *err)
         r->tile_size[tile] = r->result->region_cycles[tile * (SIM_MAX_REGIONS + 1) + SIM_MAX_REGIONS];
         r->unit_size[tile / RUN_SAMPLE_UNIT] += r->tile_size[tile];
     }
-    base_status status = sim_sample_create(r->unit_size, r->units, r->result->options.seed, &r->sample, err);
+    if (r->units <= ENDS)
+        return BASE_OK;
+    base_status status = sim_sample_create(r->unit_size + 1, r->units - ENDS, r->result->options.seed, &r->sample, err);
     if (status == BASE_OK)
         status = draw_units(r, err);
-    for (int i = 0; status == BASE_OK && i < SIM_SAMPLE_STRATA; i++) {
+    for (int i = 0; status == BASE_OK && i < SAMPLERS; i++) {
         r->samplers[i].locks = r->locks;
         status = create_sampler(&r->samplers[i], r->result, err);
     }
@@ -314,7 +332,7 @@ static void scale_to(uint64_t *counts, size_t many, uint64_t total)
         counts[largest] += total - scaled;
 }
 
-/* Where the simulated cores' cycles went, warming up included, stands for where the run's went. */
+/* Where the cycles of the strata's cores went, warming up included, stands for where the run's went. */
 static void estimate_stats(run_result *result, const sampled_run *r)
 {
     sim_core_stats *to = &result->core;
@@ -346,12 +364,19 @@ static void spread_cycles(run_result *result, const sampled_run *r)
         result->region_cycles[i] *= (double)result->cycles / sum;
 }
 
+/* The relative half-width of the interval of all cycles. */
+static double half_width_of(const sampled_run *r, const sim_estimate *e)
+{
+    const double total = e->total + r->ends_cycles;
+    return total > 0 ? e->half_width_95 / total : 0;
+}
+
 static void collect(run_result *result, const sampled_run *r)
 {
     const sim_estimate e = sim_sample_estimate(r->sample);
-    result->cycles = (uint64_t)(e.total + 0.5);
-    result->estimate = (run_estimate){.half_width_95 = e.total > 0 ? e.half_width_95 / e.total : 0, .tiles = r->tiles};
-    for (int i = 0; i < SIM_SAMPLE_STRATA; i++)
+    result->cycles = (uint64_t)(e.total + r->ends_cycles + 0.5);
+    result->estimate = (run_estimate){.half_width_95 = half_width_of(r, &e), .tiles = r->tiles};
+    for (int i = 0; i < SAMPLERS; i++)
         result->estimate.tiles_simulated += r->samplers[i].simulated;
     estimate_stats(result, r);
     spread_cycles(result, r);
@@ -363,7 +388,7 @@ static size_t rounds_needed(const sampled_run *r)
 {
     const sim_estimate e = sim_sample_estimate(r->sample);
     const size_t rounds = r->measured / SIM_SAMPLE_STRATA, most = r->rounds < 2 * rounds ? r->rounds : 2 * rounds;
-    const double times = e.half_width_95 / (r->result->options.error * e.total);
+    const double times = half_width_of(r, &e) / r->result->options.error;
     if (times <= 1)
         return 0;
     if (rounds == r->rounds)
@@ -389,7 +414,7 @@ static base_status measure(sampled_run *r, bool *enough, base_error *err)
 
 static void destroy(sampled_run *r)
 {
-    for (int i = 0; i < SIM_SAMPLE_STRATA; i++)
+    for (int i = 0; i < SAMPLERS; i++)
         if (r->samplers[i].result)
             destroy_sampler(&r->samplers[i]);
     for (size_t i = 0; i < r->starts_count; i++)
