@@ -269,11 +269,7 @@ static base_status trace_tiles(run_result *result, run_trace *recorded, progress
 static base_status trace_sampled(run_result *result, const recorder_input *input, progress *bar, base_error *err)
 {
     bool enough = false;
-    result->options.model = RUN_COUNT;
-    base_status status = trace_tiles(result, input->trace, bar, err);
-    result->options.model = RUN_CORE;
-    if (status == BASE_OK)
-        status = run_sample(result, &enough, err);
+    base_status status = run_sample(result, bar, &enough, err);
     if (status != BASE_OK || enough)
         return status;
     result->counts = (kernel_counts){{0}};

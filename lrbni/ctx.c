@@ -18,8 +18,9 @@ base_status lrb_ctx_create(lrb_event_sink *sink, void *user, lrb_ctx **out, base
         lrb_ctx_destroy(&c);
         return base_fail(err, BASE_ERR_NOMEM, "kernel context", "out of memory");
     }
-    c->events_end = c->events + LRB_BATCH;
     memset(c->scratch.host, 0, LRB_SCRATCH_BYTES);
+    c->events_end = c->events + LRB_BATCH;
+    lrb_ctx_set_lines(c, 2, 1);
     lrb_ctx_begin(c);
     *out = c;
     return BASE_OK;
@@ -35,12 +36,19 @@ void lrb_ctx_destroy(lrb_ctx **c)
     *c = NULL;
 }
 
+void lrb_ctx_set_lines(lrb_ctx *c, unsigned line_bytes, uint64_t sets)
+{
+    c->line_bits = (uint32_t)__builtin_ctz(line_bytes);
+    c->set_mask = (sets < LRB_TOUCH_SETS ? (uint32_t)sets : LRB_TOUCH_SETS) - 1;
+}
+
 void lrb_ctx_begin(lrb_ctx *c)
 {
     c->control = (lrb_control){0};
     c->next_event = LRB_FAR;
     c->line = 0;
     c->free_event = c->events;
+    memset(c->latest, 0xff, sizeof c->latest); /* scratch memory is another one's, perhaps */
 }
 
 /* Hand the batch to the sink. */
@@ -91,11 +99,24 @@ uint32_t lrb_put(lrb_ctx *c, uint64_t what, uint32_t s0, uint32_t s1, uint32_t s
     return id;
 }
 
-void lrb_put_touch(lrb_ctx *c, uint64_t what)
+static inline void put_what(lrb_ctx *c, uint64_t what)
 {
     lrb_event *e = c->free_event;
     *e = (lrb_event){.op = (uint16_t)(what >> 32), .mask = (uint16_t)(what >> 48), .aux = (uint32_t)what};
     put(c, e);
+}
+
+void lrb_put_touch(lrb_ctx *c, uint64_t what)
+{
+    const uint32_t line = (uint32_t)what >> c->line_bits;
+    c->latest[line & c->set_mask] = line;
+    put_what(c, what);
+}
+
+void lrb_put_hint(lrb_ctx *c, uint64_t what)
+{
+    c->latest[(uint32_t)what >> c->line_bits & c->set_mask] = UINT32_MAX;
+    put_what(c, what);
 }
 
 static void mark_far(lrb_ctx *c, uint32_t source, uint32_t from)

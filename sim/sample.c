@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "lrbni/base/random.h"
 
@@ -14,11 +15,13 @@ typedef struct stratum {
 
 struct sim_sample {
     size_t units;
-    double *size, *second, *value; /* by unit */
+    unsigned variates;
+    sim_variates *of; /* by unit */
+    double *value;    /* by unit */
     size_t *stratum_of;   /* by unit */
     size_t *order;        /* units, stratum by stratum; within a stratum in the order of draws */
     stratum strata[SIM_SAMPLE_STRATA];
-    double total_size, total_second;
+    sim_variates total;
 };
 
 /* A unit on its way into order. */
@@ -42,7 +45,7 @@ static void cut_strata(sim_sample *s, const sized_unit *sorted)
     size_t at = 0;
     for (size_t h = 0; h < SIM_SAMPLE_STRATA; h++) {
         size_t left = SIM_SAMPLE_STRATA - 1 - h;
-        double limit = s->total_size * (double)(h + 1) / SIM_SAMPLE_STRATA;
+        double limit = s->total.x[0] * (double)(h + 1) / SIM_SAMPLE_STRATA;
         s->strata[h].first = at;
         while (at < s->units && (left == 0 || (s->units - at > left && (at == s->strata[h].first || sum + sorted[at].size <= limit))))
             sum += sorted[at++].size;
@@ -60,23 +63,28 @@ static void shuffle(size_t *order, size_t count, base_random *random)
     }
 }
 
-static base_status lay_out(sim_sample *s, const double *size, uint64_t seed, base_error *err)
+static void take_variates(sim_sample *s, const sim_variates *of, sized_unit *sorted)
+{
+    for (size_t i = 0; i < s->units; i++) {
+        s->of[i] = of[i];
+        for (unsigned k = 0; k < s->variates; k++)
+            s->total.x[k] += of[i].x[k];
+        sorted[i] = (sized_unit){of[i].x[0], i};
+    }
+}
+
+static base_status lay_out(sim_sample *s, const sim_variates *of, uint64_t seed, base_error *err)
 {
     sized_unit *sorted = calloc(s->units, sizeof *sorted);
-    s->size = calloc(s->units, sizeof *s->size);
-    s->second = calloc(s->units, sizeof *s->second);
+    s->of = calloc(s->units, sizeof *s->of);
     s->value = calloc(s->units, sizeof *s->value);
     s->stratum_of = calloc(s->units, sizeof *s->stratum_of);
     s->order = calloc(s->units, sizeof *s->order);
-    if (!sorted || !s->size || !s->second || !s->value || !s->stratum_of || !s->order) {
+    if (!sorted || !s->of || !s->value || !s->stratum_of || !s->order) {
         free(sorted);
         return base_fail(err, BASE_ERR_NOMEM, "sample", "out of memory for %zu units", s->units);
     }
-    for (size_t i = 0; i < s->units; i++) {
-        s->size[i] = size[i];
-        s->total_size += size[i];
-        sorted[i] = (sized_unit){size[i], i};
-    }
+    take_variates(s, of, sorted);
     qsort(sorted, s->units, sizeof *sorted, by_size);
     for (size_t i = 0; i < s->units; i++)
         s->order[i] = sorted[i].unit;
@@ -91,15 +99,16 @@ static base_status lay_out(sim_sample *s, const double *size, uint64_t seed, bas
     return BASE_OK;
 }
 
-base_status sim_sample_create(const double *size, size_t units, uint64_t seed, sim_sample **out, base_error *err)
+base_status sim_sample_create(const sim_variates *of, size_t units, unsigned variates, uint64_t seed, sim_sample **out, base_error *err)
 {
-    assert(units > 0);
+    assert(units > 0 && variates > 0 && variates <= SIM_SAMPLE_VARIATES);
     *out = NULL;
     sim_sample *s = calloc(1, sizeof *s);
     if (!s)
         return base_fail(err, BASE_ERR_NOMEM, "sample", "out of memory");
     s->units = units;
-    base_status status = lay_out(s, size, seed, err);
+    s->variates = variates;
+    base_status status = lay_out(s, of, seed, err);
     if (status != BASE_OK)
         sim_sample_destroy(&s);
     *out = s;
@@ -109,8 +118,7 @@ base_status sim_sample_create(const double *size, size_t units, uint64_t seed, s
 void sim_sample_destroy(sim_sample **sample)
 {
     if (*sample) {
-        free((*sample)->size);
-        free((*sample)->second);
+        free((*sample)->of);
         free((*sample)->value);
         free((*sample)->stratum_of);
         free((*sample)->order);
@@ -128,13 +136,6 @@ size_t sim_sample_draw(sim_sample *s, size_t units[SIM_SAMPLE_STRATA])
     return count;
 }
 
-void sim_sample_set_second(sim_sample *s, const double *second)
-{
-    s->total_second = 0;
-    for (size_t i = 0; i < s->units; i++)
-        s->total_second += s->second[i] = second[i];
-}
-
 void sim_sample_add(sim_sample *s, size_t unit, double value)
 {
     stratum *h = &s->strata[s->stratum_of[unit]];
@@ -143,39 +144,91 @@ void sim_sample_add(sim_sample *s, size_t unit, double value)
     h->added++;
 }
 
-/* The least squares: y = b x + c z, and the inverse of the matrix of their normal equations, for leverages. */
+/* Least squares, after Gram and Schmidt: each variate less what those before it say of it, so that one adds nothing to what is known by others. */
 typedef struct fit {
-    double b, c;
-    double xx, xz, zz; /* of the inverse */
-    bool both;         /* false: c is 0, there is too little to tell x and z apart */
+    unsigned count;                                           /* of the variates that are used */
+    unsigned variate[SIM_SAMPLE_VARIATES];                    /* these */
+    double of_earlier[SIM_SAMPLE_VARIATES][SIM_SAMPLE_VARIATES]; /* by place: how much of each earlier one is taken off it */
+    double norm[SIM_SAMPLE_VARIATES];                         /* weighted sum of squares of what is left of it */
+    double worth[SIM_SAMPLE_VARIATES];                        /* of what is left of it */
 } fit;
 
 /* How much a unit weighs in the fit; one of no size says nothing. */
 static double weight_of(const sim_sample *s, const stratum *h, size_t unit)
 {
-    return s->size[unit] > 0 ? (double)h->count / (double)h->added / s->size[unit] : 0;
+    const double size = s->of[unit].x[0];
+    return size > 0 ? (double)h->count / (double)h->added / size : 0;
+}
+
+/* What is left of each of the first `count` variates that are used. */
+static void left_of(const fit *f, unsigned count, const sim_variates *of, double left[SIM_SAMPLE_VARIATES])
+{
+    for (unsigned k = 0; k < count; k++) {
+        left[k] = of->x[f->variate[k]];
+        for (unsigned j = 0; j < k; j++)
+            left[k] -= f->of_earlier[k][j] * left[j];
+    }
+}
+
+/* Weighted sums over the units that are known: of the last of `count` variates, by what is left of it, times what is left of each, itself
+ * and all, and times the values. Returns the sum of its own squares as it is. */
+static double sums_of(const sim_sample *s, const fit *f, unsigned count, double products[SIM_SAMPLE_VARIATES], double *values)
+{
+    double whole = 0, left[SIM_SAMPLE_VARIATES];
+    *values = 0;
+    for (unsigned k = 0; k < count; k++)
+        products[k] = 0;
+    for (const stratum *h = s->strata; h < s->strata + SIM_SAMPLE_STRATA; h++)
+        for (size_t i = 0; i < h->added; i++) {
+            const size_t unit = s->order[h->first + i];
+            const double w = weight_of(s, h, unit), x = s->of[unit].x[f->variate[count - 1]];
+            left_of(f, count, &s->of[unit], left);
+            whole += w * x * x;
+            *values += w * left[count - 1] * s->value[unit];
+            for (unsigned k = 0; k < count; k++)
+                products[k] += w * left[count - 1] * left[k];
+        }
+    return whole;
+}
+
+/* Use one more variate, unless it follows from those that are used. */
+static void take_in(const sim_sample *s, fit *f, unsigned variate)
+{
+    const unsigned k = f->count;
+    double products[SIM_SAMPLE_VARIATES], values;
+    f->variate[k] = variate;
+    memset(f->of_earlier[k], 0, sizeof f->of_earlier[k]);
+    const double whole = sums_of(s, f, k + 1, products, &values);
+    for (unsigned j = 0; j < k; j++)
+        f->of_earlier[k][j] = products[j] / f->norm[j];
+    sums_of(s, f, k + 1, products, &values);
+    if (products[k] <= 1e-6 * whole)
+        return;
+    f->norm[k] = products[k];
+    f->worth[k] = values / products[k];
+    f->count++;
 }
 
 static fit least_squares(const sim_sample *s)
 {
-    enum { FEWEST = 6 };
-    double xx = 0, xz = 0, zz = 0, xy = 0, zy = 0;
+    enum { UNITS_EACH = 3 }; /* that are known for each variate that is used */
+    fit f = {.count = 0};
     size_t units = 0;
-    for (size_t k = 0; k < SIM_SAMPLE_STRATA; k++) {
-        const stratum *h = &s->strata[k];
+    for (const stratum *h = s->strata; h < s->strata + SIM_SAMPLE_STRATA; h++)
         units += h->added;
-        for (size_t i = 0; i < h->added; i++) {
-            const size_t unit = s->order[h->first + i];
-            const double w = weight_of(s, h, unit), x = s->size[unit], z = s->second[unit], y = s->value[unit];
-            xx += w * x * x, xz += w * x * z, zz += w * z * z;
-            xy += w * x * y, zy += w * z * y;
-        }
-    }
-    const double determinant = xx * zz - xz * xz;
-    if (units < FEWEST || determinant <= 1e-6 * xx * zz)
-        return (fit){.b = xx > 0 ? xy / xx : 0, .xx = xx > 0 ? 1 / xx : 0};
-    return (fit){.b = (zz * xy - xz * zy) / determinant, .c = (xx * zy - xz * xy) / determinant, .both = true,
-                 .xx = zz / determinant, .xz = -xz / determinant, .zz = xx / determinant};
+    for (unsigned k = 0; k < s->variates && (k == 0 || units >= (size_t)UNITS_EACH * (k + 1)); k++)
+        take_in(s, &f, k);
+    return f;
+}
+
+/* What the fit makes of variates. */
+static double fitted(const fit *f, const sim_variates *of)
+{
+    double left[SIM_SAMPLE_VARIATES], sum = 0;
+    left_of(f, f->count, of, left);
+    for (unsigned k = 0; k < f->count; k++)
+        sum += f->worth[k] * left[k];
+    return sum;
 }
 
 /* By how much the i-th unit of a stratum is off the fit, as if the fit had not known it: it is drawn towards the unit by its leverage
@@ -184,13 +237,15 @@ static fit least_squares(const sim_sample *s)
 static double residual(const sim_sample *s, const stratum *h, size_t i, const fit *f)
 {
     const size_t unit = s->order[h->first + i];
-    const double x = s->size[unit], z = f->both ? s->second[unit] : 0;
-    const double leverage = weight_of(s, h, unit) * (f->xx * x * x + 2 * f->xz * x * z + f->zz * z * z);
-    const double off = s->value[unit] - f->b * x - f->c * z;
+    double left[SIM_SAMPLE_VARIATES], leverage = 0;
+    left_of(f, f->count, &s->of[unit], left);
+    for (unsigned k = 0; k < f->count; k++)
+        leverage += weight_of(s, h, unit) * left[k] * left[k] / f->norm[k];
+    const double off = s->value[unit] - fitted(f, &s->of[unit]);
     return off / (leverage < 0.75 ? 1 - leverage : 0.25);
 }
 
-/* A stratum's share of the variance of the total; infinite if of several units less than two are known. Were x and z not all that a value
+/* A stratum's share of the variance of the total; infinite if of several units less than two are known. Were the variates not all that a value
  * depends on, residuals of a stratum had a mean of their own; it is left in: that only widens the interval. */
 static double variance_of(const sim_sample *s, const stratum *h, const fit *f)
 {
@@ -219,17 +274,21 @@ static double half_width(const sim_sample *s, const fit *f)
     }
     if (variance == 0 || isinf(variance))
         return variance;
-    const double freedom = variance * variance / weighted - (f->both ? 2 : 1);
+    const double freedom = variance * variance / weighted - f->count;
     return sim_student_95(freedom > 1 ? (size_t)(freedom + 1e-9) : 1) * sqrt(variance);
 }
 
 sim_estimate sim_sample_estimate(const sim_sample *s)
 {
     const fit f = least_squares(s);
-    sim_estimate e = {.total = f.b * s->total_size + f.c * s->total_second, .half_width_95 = half_width(s, &f),
-                      .units = s->units, .per_size = f.b, .per_second = f.c};
-    for (size_t k = 0; k < SIM_SAMPLE_STRATA; k++)
-        e.added += s->strata[k].added;
+    sim_estimate e = {.total = fitted(&f, &s->total), .half_width_95 = half_width(s, &f), .units = s->units};
+    for (unsigned k = 0; k < f.count; k++) {
+        sim_variates one = {{0}};
+        one.x[f.variate[k]] = 1;
+        e.worth[f.variate[k]] = fitted(&f, &one);
+    }
+    for (const stratum *h = s->strata; h < s->strata + SIM_SAMPLE_STRATA; h++)
+        e.added += h->added;
     return e;
 }
 

@@ -1,19 +1,19 @@
-/* Sampling: the total of something dear over all units of a run, from a few units and two cheap things that are known of all.
+/* Sampling: the total of something dear over all units of a run, from a few units and some cheap things that are known of all.
  *
- * Units are whatever the caller cuts a run into. Each has a size x, a second quantity z, both cheap, and a value y that costs much
- * to find: cycles in `count`, lines from memory, cycles in `core`. Where y is about b x + c z, a few y give b and c,
- * and these make of the sums of all x and z a good estimate of the sum of all y: x and z are the control variates.
+ * Units are whatever the caller cuts a run into. Each has variates x1, x2, ..., cheap to know, the first of them its size, and a value y that costs
+ * much to find: cycles in `core`. Where y is about b1 x1 + b2 x2 + ..., a few y give the b, and these make of the sums of all x a good
+ * estimate of the sum of all y: the x are the control variates.
  *
- * - Stratified: units are ordered by x and cut into strata of about equal sums of x; a round draws one unit from each, at
+ * - Stratified: units are ordered by size and cut into strata of about equal sums of it; a round draws one unit from each, at
  *   random and without putting it back, so large units, which matter most, are drawn more often.
- * - Estimated by regression (C.-E. Saerndal, B. Swensson, J. Wretman, "Model Assisted Survey Sampling", 1992, chapter 6): b and
- *   c by least squares, a unit of stratum h weighing N_h / n_h / x; so weighted residuals sum to zero, and the total is b times the sum of
- *   all x plus c times that of all z. Without z it is the combined ratio estimator (W. G. Cochran, "Sampling
- *   Techniques", 3rd edition, 1977, 6.11).
+ * - Estimated by regression (C.-E. Saerndal, B. Swensson, J. Wretman, "Model Assisted Survey Sampling", 1992, chapter 6): the b by
+ *   least squares, a unit of stratum h weighing N_h / n_h / x1; so weighted residuals sum to zero, and the total is the sum of b times the sums
+ *   of all x. With the size alone it is the combined ratio estimator (W. G. Cochran, "Sampling
+ *   Techniques", 3rd edition, 1977, 6.11). A variate that follows from those before it, or for which too few units are known, is left out.
  * - Its variance: the sum over strata of N_h^2 / n_h times the variance of the residuals within the stratum (6.47 there, without
  *   the correction for a finite population: a unit that is simulated by itself takes a little more or less than it does in the run, so that
  *   all of them together would not give the total either), residuals taken as they are, not from the stratum's mean, and
- *   made larger by their units' leverage. The interval is Student's, with Satterthwaite's degrees of freedom less those of b and c:
+ *   made larger by their units' leverage. The interval is Student's, with Satterthwaite's degrees of freedom less those of the b:
  *   few where one stratum has most of the variance.
  *
  * The order of draws is a function of the seed and the sizes alone.
@@ -30,6 +30,14 @@
 extern "C" {
 #endif
 
+#define SIM_SAMPLE_STRATA 4
+#define SIM_SAMPLE_VARIATES 4 /* at most */
+
+/* What is known of a unit; the first is its size. */
+typedef struct sim_variates {
+    double x[SIM_SAMPLE_VARIATES];
+} sim_variates;
+
 typedef struct sim_sample sim_sample;
 
 /* What is known of the total. */
@@ -37,19 +45,20 @@ typedef struct sim_estimate {
     double total;
     double half_width_95; /* the total is within +- of it in 95 of 100 samples; infinity before two rounds */
     size_t added, units;
-    double per_size, per_second; /* b and c: what a unit of x and of z are worth */
+    double worth[SIM_SAMPLE_VARIATES]; /* b: what one of each variate adds to a value; 0: it was left out */
 } sim_estimate;
 
 /**
  * Begin a sample: nothing drawn.
  *
- * @param size   x of each unit, all at least 0; not kept
- * @param units  how many, at least 1
- * @param seed   of the order of draws
+ * @param of        variates of each unit, all at least 0; not kept
+ * @param units     how many, at least 1
+ * @param variates  how many of a unit's are used, at least 1
+ * @param seed      of the order of draws
  *
  * Errors: BASE_ERR_NOMEM.
  */
-base_status sim_sample_create(const double *size, size_t units, uint64_t seed, sim_sample **out, base_error *err);
+base_status sim_sample_create(const sim_variates *of, size_t units, unsigned variates, uint64_t seed, sim_sample **out, base_error *err);
 
 /** Free a sample, which may be NULL, and set the pointer to NULL. */
 void sim_sample_destroy(sim_sample **sample);
@@ -60,15 +69,7 @@ void sim_sample_destroy(sim_sample **sample);
  * @param units  receives the units, room for SIM_SAMPLE_STRATA
  * @return       how many; 0: all have been drawn
  */
-#define SIM_SAMPLE_STRATA 4
 size_t sim_sample_draw(sim_sample *sample, size_t units[SIM_SAMPLE_STRATA]);
-
-/**
- * Tell the second quantity of all units; without it only the size is used.
- *
- * @param second  z of each unit, all at least 0; not kept
- */
-void sim_sample_set_second(sim_sample *sample, const double *second);
 
 /** Tell the value y of a unit that was drawn: once each, those of a stratum in the order of the draws. */
 void sim_sample_add(sim_sample *sample, size_t unit, double value);

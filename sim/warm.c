@@ -7,13 +7,10 @@
 #include "sim/op_price.h"
 
 enum { NOTHING, ACCESS, HINT };
-enum { BLOCK = 1024 };
 
 struct sim_warmer {
     sim_contents contents;
     uint8_t *touch;   /* by the op field of an event: NOTHING, ACCESS or HINT */
-    uint64_t *latest; /* by set of the first level: its most recently used line, if that is known */
-    uint64_t sets;
     unsigned line_bits;
     bool prefetches;
 };
@@ -58,20 +55,14 @@ base_status sim_warmer_create(const sim_machine *machine, sim_warmer **out, base
         return base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     base_status status = sim_contents_create(machine, &w->contents, err);
     if (status == BASE_OK) {
-        w->sets = w->contents.l1->sets;
         w->line_bits = w->contents.l1->line_bits;
         w->prefetches = machine->memory.prefetches_per_core > 0;
-        w->latest = malloc(w->sets * sizeof *w->latest);
-        if (!w->latest || !find_touches(w, machine))
+        if (!find_touches(w, machine))
             status = base_fail(err, BASE_ERR_NOMEM, "core model", "out of memory");
     }
-    if (status != BASE_OK) {
+    if (status != BASE_OK)
         sim_warmer_destroy(out);
-        return status;
-    }
-    for (uint64_t set = 0; set < w->sets; set++)
-        w->latest[set] = UINT64_MAX;
-    return BASE_OK;
+    return status;
 }
 
 void sim_warmer_destroy(sim_warmer **w)
@@ -79,73 +70,59 @@ void sim_warmer_destroy(sim_warmer **w)
     if (*w) {
         sim_contents_destroy(&(*w)->contents);
         free((*w)->touch);
-        free((*w)->latest);
     }
     free(*w);
     *w = NULL;
 }
 
-/* The lines that came from memory: 1 or 0. */
-static uint64_t access_line(sim_warmer *w, uint64_t line)
+static void access_line(sim_warmer *w, uint64_t line, sim_lines *came)
 {
-    uint64_t *latest = &w->latest[line & (w->sets - 1)];
-    if (*latest == line)
-        return 0; /* the order of use stays as it is */
-    *latest = line;
-    return !sim_cache_touch(w->contents.l1, line) && !sim_cache_touch(w->contents.l2, line);
+    if (sim_cache_touch(w->contents.l1, line))
+        return;
+    came->l1++;
+    came->l2 += !sim_cache_touch(w->contents.l2, line);
 }
 
-static uint64_t take_hint(sim_warmer *w, lrb_hint hint, uint64_t line)
+static void take_hint(sim_warmer *w, lrb_hint hint, uint64_t line, sim_lines *came)
 {
     sim_contents *c = &w->contents;
     switch (hint) {
     case LRB_HINT_PREFETCH1:
-        return w->prefetches && !sim_cache_holds(c->l1, line) ? access_line(w, line) : 0;
+        if (w->prefetches && !sim_cache_holds(c->l1, line))
+            access_line(w, line, came);
+        break;
     case LRB_HINT_PREFETCH2:
-        return w->prefetches && !sim_cache_holds(c->l2, line) ? !sim_cache_touch(c->l2, line) : 0;
+        if (w->prefetches && !sim_cache_holds(c->l2, line))
+            came->l2 += !sim_cache_touch(c->l2, line);
+        break;
     case LRB_HINT_EVICT1:
-        w->latest[line & (w->sets - 1)] = UINT64_MAX;
         sim_cache_evict(c->l1, line);
-        return 0;
+        break;
     case LRB_HINT_EVICT2:
         sim_cache_evict(c->l2, line);
-        return 0;
+        break;
     case LRB_HINT_NONE:
     case LRB_HINT_DELAY:
         break;
     }
-    return 0;
 }
 
-/* Events that touch memory are picked first, without a branch: which ones do is nothing that a host foresees. */
-static uint64_t warm_block(sim_warmer *w, uint64_t scratch, const lrb_event *events, size_t count)
+sim_lines sim_warmer_events(sim_warmer *w, unsigned thread, const lrb_event *events, size_t count)
 {
-    uint16_t picked[BLOCK];
-    size_t touches = 0;
-    uint64_t lines = 0;
-    for (size_t i = 0; i < count; i++) {
-        picked[touches] = (uint16_t)i;
-        touches += w->touch[events[i].op] != NOTHING;
-    }
-    for (size_t i = 0; i < touches; i++) {
-        const lrb_event *e = &events[picked[i]];
+    const uint64_t scratch = (uint64_t)thread * LRB_SCRATCH_BYTES;
+    sim_lines came = {0};
+    for (const lrb_event *e = events; e < events + count; e++) {
         const uint64_t line = (e->aux + (e->aux >= LRB_SCRATCH_ADDRESS ? scratch : 0)) >> w->line_bits;
         if (e->mask == 0 && !(e->op & LRB_FORM_MEMORY))
             continue;
         if (w->touch[e->op] == ACCESS)
-            lines += access_line(w, line);
-        else
-            lines += take_hint(w, lrb_op_hint_of((lrb_op_id)(e->op & LRB_EVENT_ID)), line);
+            access_line(w, line, &came);
+        else if (w->touch[e->op] == HINT)
+            take_hint(w, lrb_op_hint_of((lrb_op_id)(e->op & LRB_EVENT_ID)), line, &came);
     }
-    return lines;
+    return came;
 }
 
-uint64_t sim_warmer_events(sim_warmer *w, unsigned thread, const lrb_event *events, size_t count)
-{
-    uint64_t lines = 0;
-    for (size_t i = 0; i < count; i += BLOCK)
-        lines += warm_block(w, (uint64_t)thread * LRB_SCRATCH_BYTES, events + i, count - i < BLOCK ? count - i : BLOCK);
-    return lines;
-}
+void sim_warmer_fill(sim_warmer *w, const sim_contents *contents) { sim_contents_assign(&w->contents, contents); }
 
 const sim_contents *sim_warmer_contents(const sim_warmer *w) { return &w->contents; }

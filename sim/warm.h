@@ -36,6 +36,11 @@ void sim_contents_destroy(sim_contents *c);
 /** Make contents of the same machine equal. */
 void sim_contents_assign(sim_contents *to, const sim_contents *from);
 
+/* Lines that came to each level: to the first from the second, to the second from memory. */
+typedef struct sim_lines {
+    uint64_t l1, l2;
+} sim_lines;
+
 typedef struct sim_warmer sim_warmer;
 
 /** A warmer with cold caches. Errors: BASE_ERR_NOMEM. */
@@ -48,9 +53,12 @@ void sim_warmer_destroy(sim_warmer **w);
  * Let events access the caches.
  *
  * @param thread  hardware thread whose scratch memory is theirs
- * @return        lines that came from memory
+ * @return        the lines that came
  */
-uint64_t sim_warmer_events(sim_warmer *w, unsigned thread, const lrb_event *events, size_t count);
+sim_lines sim_warmer_events(sim_warmer *w, unsigned thread, const lrb_event *events, size_t count);
+
+/** Make the caches hold what others of the same machine do. */
+void sim_warmer_fill(sim_warmer *w, const sim_contents *contents);
 
 /** What the caches hold now; the warmer's own. */
 const sim_contents *sim_warmer_contents(const sim_warmer *w);

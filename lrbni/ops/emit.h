@@ -17,8 +17,8 @@ LRB_INLINE void lrb_mark(lrb_ctx *c, lrb_op_id marker, uint32_t number)
 }
 
 #if LRB_LEVEL == LRB_TOUCH
-/* Whether an op tells an address to the caches; known when the op is compiled. */
-LRB_INLINE bool lrb_touches(unsigned op, unsigned form)
+/* What an op does to memory; known when the op is compiled. */
+LRB_INLINE lrb_access lrb_access_of(unsigned op)
 {
     static const uint8_t access[LRB_SHAPE_COUNT] = {
 #define SHAPE(name, access, reads, sentence) LRB_ACCESS_##access,
@@ -28,7 +28,20 @@ LRB_INLINE bool lrb_touches(unsigned op, unsigned form)
 #define OP(id, mnemonic, shape, class, mask, round, chips, source, formula) LRB_SHAPE_##shape,
 #include "lrbni/ops.def"
     };
-    return form & LRB_FORM_MEMORY || access[shape[op]] != LRB_ACCESS_NONE;
+    return (lrb_access)access[shape[op]];
+}
+
+/* Tell the caches of an op that accesses memory, or gives a hint about it. */
+LRB_INLINE void lrb_touch(lrb_ctx *c, unsigned op, unsigned form, uint32_t mask, uint32_t aux)
+{
+    const uint64_t what = (uint64_t)mask << 48 | (uint64_t)(op | form) << 32 | aux;
+    const uint32_t line = aux >> c->line_bits;
+    if (!(form & LRB_FORM_MEMORY) && lrb_access_of(op) == LRB_ACCESS_HINT)
+        lrb_put_hint(c, what);
+    else if (!(form & LRB_FORM_MEMORY) && (lrb_access_of(op) == LRB_ACCESS_NONE || !mask))
+        return; /* without a lane nothing is accessed */
+    else if (c->latest[line & c->set_mask] != line)
+        lrb_put_touch(c, what);
 }
 #endif
 
@@ -44,14 +57,14 @@ LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t ma
     return lrb_put(c, what, s0, s1, s2, s3);
 #endif
 #else
-#if LRB_LEVEL == LRB_TOUCH
-    if (lrb_touches(op, form))
-        lrb_put_touch(c, (uint64_t)mask << 48 | (uint64_t)(op | form) << 32 | aux);
-#elif LRB_LEVEL == LRB_COUNT
+#if LRB_LEVEL == LRB_COUNT || LRB_LEVEL == LRB_TOUCH
     c->ops[op]++;
     c->memory_operands += form & LRB_FORM_MEMORY ? 1 : 0;
 #else
     (void)c, (void)op;
+#endif
+#if LRB_LEVEL == LRB_TOUCH
+    lrb_touch(c, op, form, mask, aux);
 #endif
     (void)form, (void)mask, (void)s0, (void)s1, (void)s2, (void)s3, (void)aux;
     return 0;
@@ -62,7 +75,7 @@ LRB_INLINE uint32_t lrb_emit(lrb_ctx *c, unsigned op, unsigned form, uint32_t ma
 LRB_INLINE uint32_t lrb_emit_masked(lrb_ctx *c, unsigned op, unsigned form, lrb_k16 k, uint32_t s0, uint32_t s1, uint32_t s3,
                                     uint32_t aux)
 {
-#if LRB_LEVEL == LRB_COUNT
+#if LRB_LEVEL == LRB_COUNT || LRB_LEVEL == LRB_TOUCH
     c->idle_lanes += 16u - (unsigned)__builtin_popcount(k.bits);
 #endif
     return lrb_emit(c, op, form, k.bits, s0, s1, LRB_FROM(k), s3, aux);

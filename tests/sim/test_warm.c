@@ -82,10 +82,10 @@ static void compare(uint64_t seed, unsigned lines)
 
     run(whole, first_events);
     const sim_hierarchy_counts before = sim_core_get(whole).memory;
-    uint64_t warmed = sim_warmer_events(warmer, 0, first_events, 777); /* blocks of any length */
-    warmed += sim_warmer_events(warmer, 0, first_events + 777, EVENTS - 777);
-    assert_true(warmed > 30);
-    assert_int_equal(warmed, before.memory_lines);
+    const sim_lines some = sim_warmer_events(warmer, 0, first_events, 777), more = sim_warmer_events(warmer, 0, first_events + 777, EVENTS - 777);
+    assert_true(some.l2 + more.l2 > 30);
+    assert_int_equal(some.l1 + more.l1, before.l2_accesses);
+    assert_int_equal(some.l2 + more.l2, before.memory_lines);
 
     sim_core_fill(late, sim_warmer_contents(warmer));
     run(late, second_events);
@@ -96,7 +96,7 @@ static void compare(uint64_t seed, unsigned lines)
     for (size_t i = 0; i < sizeof after / sizeof *a; i++)
         a[i] -= b[i]; /* of the second stream alone */
     assert_same_counts(&counted, &after);
-    assert_int_equal(sim_warmer_events(warmer, 0, second_events, EVENTS), after.memory_lines);
+    assert_int_equal(sim_warmer_events(warmer, 0, second_events, EVENTS).l2, after.memory_lines);
 
     sim_warmer_destroy(&warmer);
     assert_null(warmer);
@@ -122,11 +122,11 @@ static void scratch__two_threads__lines_of_their_own(void **state)
     const lrb_event own = {.op = LRB_OP_load32, .mask = 0xffff, .aux = 0xf0000040u}, shared = {.op = LRB_OP_load32, .mask = 0xffff, .aux = 64};
     assert_int_equal(sim_machine_load("larrabee", &machine, NULL), BASE_OK);
     assert_int_equal(sim_warmer_create(machine, &warmer, NULL), BASE_OK);
-    assert_int_equal(sim_warmer_events(warmer, 0, &own, 1), 1);
-    assert_int_equal(sim_warmer_events(warmer, 0, &own, 1), 0);
-    assert_int_equal(sim_warmer_events(warmer, 3, &own, 1), 1);
-    assert_int_equal(sim_warmer_events(warmer, 0, &shared, 1), 1);
-    assert_int_equal(sim_warmer_events(warmer, 3, &shared, 1), 0);
+    assert_int_equal(sim_warmer_events(warmer, 0, &own, 1).l2, 1);
+    assert_int_equal(sim_warmer_events(warmer, 0, &own, 1).l2, 0);
+    assert_int_equal(sim_warmer_events(warmer, 3, &own, 1).l2, 1);
+    assert_int_equal(sim_warmer_events(warmer, 0, &shared, 1).l2, 1);
+    assert_int_equal(sim_warmer_events(warmer, 3, &shared, 1).l2, 0);
     sim_warmer_destroy(&warmer);
     sim_machine_destroy(&machine);
 }
