@@ -279,8 +279,6 @@ LRB_INLINE void kd16_octant(lrb_ctx *c, kd16 *k, slab16 *s, bool zero, lrb_r64 s
 {
     kd16_place at = {.node = start};
     lrb_phase(c, KERNEL_PHASE_SETUP);
-    if (k->any)
-        exit = lrb_min_ps(c, exit, s->limit);
     for (int axis = 0; axis < 3; axis++)
         kd16_row_setup(c, k, s, axis, m);
     if (k->mailbox) {
@@ -326,7 +324,7 @@ LRB_INLINE void kd16_parts(lrb_ctx *c, kd16 *k, slab16 *s, bool zero, bool commo
     } while (lrb_jnz(c, lrb_test(c, rest, rest)));
 }
 
-/* Distances at which rays enter and leave the box in scratch; returns the rays of m that meet it. */
+/* Distances at which rays enter and leave the box in scratch; returns the rays of m that meet it before they end. */
 LRB_INLINE lrb_k16 kd16_enter(lrb_ctx *c, const kd16 *k, const slab16 *s, slab16_path path, lrb_k16 m, lrb_v16f *entry, lrb_v16f *exit)
 {
     *entry = s->zero;
@@ -338,6 +336,8 @@ LRB_INLINE lrb_k16 kd16_enter(lrb_ctx *c, const kd16 *k, const slab16 *s, slab16
         lrb_v16f axis_exit = slab16_exit(c, s, path, planes, axis);
         *exit = axis ? lrb_min_ps(c, *exit, axis_exit) : axis_exit;
     }
+    if (k->any)
+        *exit = lrb_min_ps(c, *exit, s->limit);
     return lrb_mask_cmple_ps(c, m, *entry, *exit);
 }
 

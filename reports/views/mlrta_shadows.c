@@ -59,7 +59,7 @@ report_table *mlrta_shadows_table(const mlrta_shadows *rows, size_t count, const
                              "where the tile's rays are on every axis. Where it finds nothing in the way, all tests from the root are "
                              "of such leaves; at an entry point a packet starts with those rays only that meet its cell, and with their "
                              "interval in it. A tile without bounds starts at the root either way. More tests "
-                             "with MLRT: a leaf that only packets from the root enter can list a large triangle that blocks their "
-                             "rays elsewhere, and they are done.");
+                             "with MLRT would be by luck: a leaf that only packets from the root enter can list a triangle that "
+                             "blocks their rays elsewhere, and they are done.");
     return t;
 }
