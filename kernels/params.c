@@ -40,6 +40,7 @@ static const kernel_param_info param_table[KERNEL_PARAM_COUNT] = {
     [KERNEL_PARAM_DIVERGENT_PACKETS] = {"divergent_packets", 0, 1, "packets whose rays differ in sign are traced by octants, or ray by ray", offsetof(kernel_params, divergent_packets), packets_names},
     [KERNEL_PARAM_ENDS] = {"ends", 0, 1, "1: a triangle that all rays of a tile hit ends its search", offsetof(kernel_params, ends), NULL},
     [KERNEL_PARAM_SHADOW_PACKETS] = {"shadow_packets", 0, 2, "shadow rays of a block that go together: all, of surfaces that face alike, of one triangle", offsetof(kernel_params, shadow_packets), shadow_packets_names},
+    [KERNEL_PARAM_EARLY_TERMINATION] = {"early_termination", 0, 1, "1: a shadow ray that is blocked is done with; 0: it goes on with its packet", offsetof(kernel_params, early_termination), NULL},
     [KERNEL_PARAM_FILTER] = {"filter", 0, 1, "1: a second pass takes means over 4x4 pixels of a surface", offsetof(kernel_params, filter), NULL},
     [KERNEL_PARAM_MARKING] = {"marking", 0, 1, "what is marked where a silhouette crosses: pixels, or blocks of 4x4", offsetof(kernel_params, marking), marking_names},
     [KERNEL_PARAM_RETRACE] = {"retrace", 0, 1, "1: 16 samples of each marked pixel are traced; 0: pixels are marked only", offsetof(kernel_params, retrace), NULL},

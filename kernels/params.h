@@ -45,6 +45,7 @@ typedef struct kernel_params {
     unsigned divergent;     /* kernel_divergent */
     unsigned divergent_packets; /* kernel_packets */
     unsigned shadow_packets; /* kernel_shadow_packets */
+    unsigned early_termination; /* 1: a hard shadow ray that is blocked is done with; 0: it goes on with its packet */
     unsigned hard_shadows;  /* no parameter: 1: the kernel traces a ray to the light's point from each hit */
     unsigned msaa;          /* no parameter: 1: the kernel marks pixels that silhouettes cross */
     unsigned marking;       /* kernel_marking */
@@ -78,6 +79,7 @@ typedef enum kernel_param {
     KERNEL_PARAM_DIVERGENT_PACKETS,
     KERNEL_PARAM_ENDS,
     KERNEL_PARAM_SHADOW_PACKETS,
+    KERNEL_PARAM_EARLY_TERMINATION,
     KERNEL_PARAM_FILTER,
     KERNEL_PARAM_MARKING,
     KERNEL_PARAM_RETRACE,

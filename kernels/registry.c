@@ -45,8 +45,11 @@ static const uint64_t entry_params = PARAM(EMPTY_OCCLUDERS) | PARAM(ITS) | PARAM
 static const uint64_t entry_counters = BIT(ep_cells) | BIT(ep_inner) | BIT(end_tests) | BIT(end_hits) | BIT(units_tiles) |
                                        BIT(units_empty_tiles) | BIT(units_divergent_tiles);
 
-/* The parameters that all kernels on the kd-tree have. */
+static const uint64_t hard_shadow_params = PARAM(SHADOW_PACKETS) | PARAM(EARLY_TERMINATION);
+
+/* The parameters that all kernels on the kd-tree have; those with hard shadows. */
 #define KDTREE_DEFAULTS .empty_percent = 10, .covered_planes = 1, .min_area = 100, .perfect_splits = 1, .mailbox = 1, .light_scale = 1
+#define HARD_SHADOW_DEFAULTS .shadow_packets = KERNEL_SHADOW_TRIANGLE, .early_termination = 1, .hard_shadows = 1
 
 const kernel_info *kernel_list(size_t *count)
 {
@@ -148,10 +151,10 @@ const kernel_info *kernel_list(size_t *count)
             .name = "kd16-shadow",
             .summary = "the same, then hard shadows in packets from a point light",
             .paper = "Reshetov, Soupikov and Hurley 2005, 5",
-            .defaults = {KDTREE_DEFAULTS, .shadow_packets = KERNEL_SHADOW_TRIANGLE, .hard_shadows = 1},
+            .defaults = {KDTREE_DEFAULTS, HARD_SHADOW_DEFAULTS},
             .accel = KERNEL_ACCEL_KDTREE,
             .counters = kdtree_counters | BIT(rays_shadow) | BIT(units_hard_packets),
-            .params = kdtree_params | PARAM(SHADOW_PACKETS),
+            .params = kdtree_params | hard_shadow_params,
             .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_SHADING,
             .tile = {kd16_shadow_native, kd16_shadow_count, kd16_shadow_record, kd16_shadow_touch},
             .annotated = kd16_shadow_annotated,
@@ -172,11 +175,10 @@ const kernel_info *kernel_list(size_t *count)
             .name = "mlrta-shadow",
             .summary = "the same, then hard shadows of a point light from entry points of 16x16 tiles of hits",
             .paper = "Reshetov, Soupikov and Hurley 2005, 5",
-            .defaults = {KDTREE_DEFAULTS, .its = 3, .sf = 1, .mts = 3, .ends = 1,
-                         .shadow_packets = KERNEL_SHADOW_TRIANGLE, .hard_shadows = 1},
+            .defaults = {KDTREE_DEFAULTS, .its = 3, .sf = 1, .mts = 3, .ends = 1, HARD_SHADOW_DEFAULTS},
             .accel = KERNEL_ACCEL_KDTREE,
             .counters = kdtree_counters | entry_counters | BIT(rays_shadow) | BIT(units_hard_packets),
-            .params = kdtree_params | entry_params | PARAM(SHADOW_PACKETS),
+            .params = kdtree_params | entry_params | hard_shadow_params,
             .phases = tracing_phases | UINT64_C(1) << KERNEL_PHASE_ENTRY | UINT64_C(1) << KERNEL_PHASE_SHADING,
             .tile = {mlrta_shadow_native, mlrta_shadow_count, mlrta_shadow_record, mlrta_shadow_touch},
             .annotated = mlrta_shadow_annotated,

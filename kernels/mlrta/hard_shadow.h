@@ -159,11 +159,11 @@ LRB_INLINE lrb_k16 hard_shadow_trace(lrb_ctx *c, const hard_shadow *h, kd16 *k, 
     slab16_setup(c, &s, k->constants, k->scratch, slack, active, lo, hi, k->n);
     lrb_v16f farthest = lrb_load_1to16_ps(c, RAYS16_CONSTANT(k->constants, light.farthest));
     s.limit = lrb_mask_mov_ps(c, lrb_load_ps(c, RAYS16_CONSTANT(k->constants, no_pixel)), active, farthest);
-    k->u = lrb_mov_ps(c, s.zero);
+    k->u = lrb_mov_ps(c, k->early ? s.zero : s.limit);
     k->v = lrb_mov_ps(c, s.zero);
     k->id = lrb_load_1to16_pi(c, RAYS16_CONSTANT(k->constants, no_hit));
     kd16_trace(c, k, &s, start, active);
-    return lrb_mask_cmplt_ps(c, active, s.zero, s.limit);
+    return lrb_mask_cmplt_ps(c, active, s.zero, k->early ? s.limit : k->u);
 }
 
 /** The rays of a block that could see the light, into scratch, as its pixels with a hit. */

@@ -40,7 +40,8 @@ enum { KD16_EVEN = 0x5555, KD16_ODD = 0xaaaa };
 typedef struct kd16 {
     lrb_ptr constants, scratch, cells, nodes, lists, records;
     bool cull, mailbox, single_rays;
-    bool any; /* the rays end at any hit before their limit, which then becomes -inf */
+    bool any;   /* the rays end at any hit before their limit, which then becomes -inf... */
+    bool early; /* ...unless they are to go on all the same: then u, which began as the limit, becomes -inf */
     uint32_t unit_log2, tile_x, tile_y; /* edge of the unit of work, in tiles; the place in it of the tile that is being traced */
     kernel_counts *n;
     lrb_v16f origin;     /* for triangle records */
@@ -73,6 +74,7 @@ LRB_INLINE kd16 kd16_from_light(lrb_ctx *c, const kernel_job *job, kernel_counts
     k.constants = lrb_segment_at(job->light_constants, 0);
     k.cells = lrb_segment_at(job->cells, sizeof(job_cells));
     k.any = true;
+    k.early = job->params.early_termination;
     return k;
 }
 
@@ -197,7 +199,8 @@ LRB_INLINE lrb_r64 kd16_triangle(lrb_ctx *c, kd16 *k, slab16 *s, lrb_ptr record,
     k->n->n[KERNEL_isect_hits]++;
     if (k->any) {
         lrb_k16 blocked = lrb_mask_cmpnle_ps_s3(c, hits.m, hits.t, lrb_1to16_ps(RAYS16_CONSTANT(k->constants, light.nearest)));
-        s->limit = lrb_mask_mov_ps_s3(c, s->limit, blocked, lrb_full_ps(RAYS16_CONSTANT(k->constants, no_pixel)));
+        lrb_v16f *way = k->early ? &s->limit : &k->u;
+        *way = lrb_mask_mov_ps_s3(c, *way, blocked, lrb_full_ps(RAYS16_CONSTANT(k->constants, no_pixel)));
         return lrb_mov(c, lrb_imm(1));
     }
     s->limit = lrb_mask_mov_ps(c, s->limit, hits.m, hits.t);

@@ -317,6 +317,44 @@ static size_t check_shadows(const stage *st, const trace_picture *p, const scene
     return decided;
 }
 
+/* A kernel's picture in tiles of 16x16 pixels, with no shadow ray done with early. */
+static trace_picture run_tiles(const stage *st, const char *kernel, const scene_camera *camera, unsigned packets)
+{
+    kernel_params p = kernel_find(kernel)->defaults;
+    p.its = 0;
+    p.early_termination = 0;
+    p.shadow_packets = packets;
+    return run(st, kernel, camera, 0, &p);
+}
+
+/* Tests of the shadow rays alone of one tile. */
+static uint64_t shadow_tests(const trace_picture *shadow, const trace_picture *primary, size_t tile)
+{
+    return shadow->tile_counts[tile].n[KERNEL_isect_tests] - primary->tile_counts[tile].n[KERNEL_isect_tests];
+}
+
+/* Shadow rays that all go on to their ends are blocked as those that are done with early, `expected`; and what a packet tests from its
+   entry point it tests from the root, tile by tile. Returns the tests from the root, of primary rays too. */
+static uint64_t check_shadow_tests(const stage *st, const scene_camera *camera, unsigned packets, const trace_picture *expected)
+{
+    trace_picture primary[2] = {run_tiles(st, "kd16-primary", camera, packets), run_tiles(st, "mlrta-primary", camera, packets)};
+    trace_picture shadow[2] = {run_tiles(st, "kd16-shadow", camera, packets), run_tiles(st, "mlrta-shadow", camera, packets)};
+    assert_int_equal(shadow[0].tiles, shadow[1].tiles);
+    for (size_t tile = 0; tile < shadow[0].tiles; tile++) {
+        const uint64_t root = shadow_tests(&shadow[0], &primary[0], tile), entry = shadow_tests(&shadow[1], &primary[1], tile);
+        if (entry > root)
+            fail_msg("%s, %s, packets %u, tile %zu: %llu tests of shadow rays from the entry point, %llu from the root", st->s->name,
+                     camera->name, packets, tile, (unsigned long long)entry, (unsigned long long)root);
+    }
+    const uint64_t tests = of(&shadow[0], KERNEL_isect_tests);
+    for (int way = 0; way < 2; way++) {
+        trace_assert_equal(expected, &shadow[way], "shadow rays that go on");
+        trace_free(&primary[way]);
+        trace_free(&shadow[way]);
+    }
+    return tests;
+}
+
 /* Hard shadows: what is in the way according to double arithmetic, whatever goes together in a packet and wherever it starts (C14). */
 static void shadows__of_a_room__as_by_brute_force(void **state)
 {
@@ -337,6 +375,7 @@ static void shadows__of_a_room__as_by_brute_force(void **state)
         trace_assert_equal(&root, &entry, "entry points of shadow rays");
         assert_true(of(&entry, KERNEL_isect_tests) <= of(&other, KERNEL_isect_tests));
         assert_int_equal(of(&entry, KERNEL_rays), of(&root, KERNEL_rays));
+        assert_true(check_shadow_tests(&st, camera, packets, &other) > of(&other, KERNEL_isect_tests));
         trace_free(&other);
         trace_free(&entry);
     }
@@ -344,7 +383,7 @@ static void shadows__of_a_room__as_by_brute_force(void **state)
     stage_destroy(&st);
 }
 
-/* Over scenes and hard views: entry points change no shadow. */
+/* Over scenes and hard views: entry points change no shadow, and add no test. */
 static void shadows__usual_scenes_hard_views__same_from_entry_points(void **state)
 {
     size_t scenes;
@@ -363,6 +402,7 @@ static void shadows__usual_scenes_hard_views__same_from_entry_points(void **stat
             assert_int_equal(kdtree_mark_occluders(st.kdtree, (const float(*)[3])origins, 2, false, NULL), BASE_OK);
             trace_picture root = run(&st, "kd16-shadow", &v.camera[k], 0, NULL), entry = run(&st, "mlrta-shadow", &v.camera[k], 0, NULL);
             trace_assert_equal(&root, &entry, v.camera[k].name);
+            check_shadow_tests(&st, &v.camera[k], (unsigned)(k / 3 % 3), &root);
             trace_free(&root);
             trace_free(&entry);
         }
@@ -448,6 +488,7 @@ static void mlrta__levels_and_threads__same_results(void **state)
     for (int k = 0; k < 4; k++) {
         kernel_params p = kernel_find(names[k])->defaults;
         p.its = k % 2; /* 32 */
+        p.early_termination = k < 3;
         trace_picture got[5];
         for (int i = 0; i < 5; i++) {
             static const int levels[5] = {LRB_NATIVE, LRB_COUNT, LRB_RECORD, LRB_RECORD, LRB_TOUCH};

@@ -87,6 +87,17 @@ static void check_shader(const kernel_info *kernel, const trace_trees *trees, co
     check(kernel, &params, s->name, &stats);
 }
 
+/* With blocked shadow rays that stay in their packets. */
+static void check_late_termination(const kernel_info *kernel, const trace_trees *trees, const scene *s, kernel_counts *n)
+{
+    kernel_params params = kernel->defaults;
+    if (!params.early_termination)
+        return;
+    params.early_termination = 0;
+    sim_registers_stats stats = analyse(kernel, &params, trees, s, n);
+    check(kernel, &params, s->name, &stats);
+}
+
 static void registers__every_kernel_usual_scenes__nothing_spilled(void **state)
 {
     size_t kernels, scenes;
@@ -108,6 +119,7 @@ static void registers__every_kernel_usual_scenes__nothing_spilled(void **state)
             check_shrinking(&kernel[k], &trees, s, &n);
             check_passes(&kernel[k], &trees, s, &n);
             check_shader(&kernel[k], &trees, s, &n);
+            check_late_termination(&kernel[k], &trees, s, &n);
             trace_trees_destroy(&trees);
         }
         scene_destroy(&s);

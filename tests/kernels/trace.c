@@ -17,7 +17,6 @@
 /* What a host thread gathers. */
 typedef struct trace_worker {
     lrb_ctx *c;
-    kernel_counts counts;
     uint64_t ops[LRB_OP_COUNT], idle_lanes, events;
     uint64_t tile_hash; /* of the tile that is being traced */
 } trace_worker;
@@ -28,6 +27,7 @@ typedef struct trace_run_state {
     kernel_tile_fn *tile;
     trace_worker *workers;
     uint64_t *tile_hashes;
+    kernel_counts *tile_counts;
     size_t pass; /* first tile of it */
 } trace_run_state;
 
@@ -66,7 +66,7 @@ static void trace_tile(void *user, size_t piece, unsigned worker)
     const size_t tile = r->pass + piece;
     w->tile_hash = BASE_HASH_START;
     lrb_ctx_begin(w->c);
-    r->tile(w->c, r->job, (uint32_t)tile, &w->counts);
+    r->tile(w->c, r->job, (uint32_t)tile, &r->tile_counts[tile]);
     lrb_ctx_end(w->c);
     r->tile_hashes[tile] = w->tile_hash;
 }
@@ -114,12 +114,16 @@ static void gather_pixels(const kernel_job *job, trace_picture *picture)
 
 static void gather_worker(trace_picture *picture, const trace_worker *w, int level)
 {
-    for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
-        picture->counts.n[i] += w->counts.n[i];
     for (int i = 0; i < LRB_OP_COUNT; i++)
         picture->ops[i] += level == LRB_RECORD ? w->ops[i] : w->c->ops[i];
     picture->idle_lanes += level == LRB_RECORD ? w->idle_lanes : w->c->idle_lanes;
     picture->events += w->events;
+}
+
+static void gather_tile(trace_picture *picture, const kernel_counts *tile)
+{
+    for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
+        picture->counts.n[i] += tile->n[i];
 }
 
 trace_picture trace_picture_create(unsigned width, unsigned height)
@@ -159,15 +163,19 @@ trace_picture trace_run(const trace_request *request)
     trace_picture picture = trace_picture_create(request->width, request->height);
     kernel_job *job = trace_job(request);
     trace_run_state r = {.request = request, .job = job, .tile = kernel_find(request->kernel)->tile[request->level]};
+    picture.tiles = kernel_job_tiles(job);
     r.workers = calloc(request->jobs, sizeof *r.workers);
-    r.tile_hashes = calloc(kernel_job_tiles(job), sizeof *r.tile_hashes);
-    assert_true(r.workers && r.tile_hashes);
+    r.tile_hashes = calloc(picture.tiles, sizeof *r.tile_hashes);
+    r.tile_counts = picture.tile_counts = calloc(picture.tiles, sizeof *r.tile_counts);
+    assert_true(r.workers && r.tile_hashes && r.tile_counts);
     for (unsigned i = 0; i < request->jobs; i++)
         assert_int_equal(lrb_ctx_create(take_events, &r.workers[i], &r.workers[i].c, NULL), BASE_OK);
     base_parallel_for(request->jobs, kernel_job_first_pass(job), trace_tile, &r);
     r.pass = kernel_job_first_pass(job);
-    base_parallel_for(request->jobs, kernel_job_tiles(job) - r.pass, trace_tile, &r);
-    picture.events_hash = base_hash(BASE_HASH_START, r.tile_hashes, kernel_job_tiles(job) * sizeof *r.tile_hashes);
+    base_parallel_for(request->jobs, picture.tiles - r.pass, trace_tile, &r);
+    picture.events_hash = base_hash(BASE_HASH_START, r.tile_hashes, picture.tiles * sizeof *r.tile_hashes);
+    for (size_t i = 0; i < picture.tiles; i++)
+        gather_tile(&picture, &picture.tile_counts[i]);
     for (unsigned i = 0; i < request->jobs; i++) {
         gather_worker(&picture, &r.workers[i], request->level);
         lrb_ctx_destroy(&r.workers[i].c);
@@ -189,6 +197,7 @@ void trace_free(trace_picture *picture)
     free(picture->visibility);
     free(picture->filtered);
     free(picture->lit);
+    free(picture->tile_counts);
     *picture = (trace_picture){0};
 }
 

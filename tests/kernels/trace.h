@@ -18,7 +18,9 @@ typedef struct trace_picture {
     uint32_t *occlusion; /* of kernels that trace shadows, else 0: bits of the last set of samples (of mft-msaa a hash of a pixel's samples)... */
     float *visibility;   /* ...and what is seen of the light */
     float *filtered, *lit; /* of soft shadows, else 0: visibility as the filter leaves it, and times the shading; lit: or of a shader */
-    kernel_counts counts;
+    size_t tiles;               /* that were traced: units of work, then those of a second pass */
+    kernel_counts *tile_counts; /* by tile; owned */
+    kernel_counts counts;       /* their sum */
     uint64_t ops[LRB_OP_COUNT]; /* COUNT: the context's histogram; RECORD: that of the events; NATIVE: 0 */
     uint64_t idle_lanes;        /* likewise */
     uint64_t events;            /* RECORD: their number ... */
