@@ -20,9 +20,9 @@
    one of them at a time; to the rows that the filter reads it writes what is there. */
 enum { TILE_LOCKS = 64 };
 
-/* The first unit and the last are like no other: threads that begin together from empty caches, threads that run out of work. They are
-   always simulated, each on a core of its own, and the sample is of those between. */
-enum { ENDS = 2, SAMPLERS = SIM_SAMPLE_STRATA + ENDS };
+/* The first unit and the last of each pass of the kernel are like no other: threads that begin together, threads that run out of work. They are
+   always simulated, each on a core of its own, and the sample is of the others. */
+enum { ENDS = 4, SAMPLERS = SIM_SAMPLE_STRATA + ENDS };
 
 /* What a host thread records tiles with. */
 typedef struct bench {
@@ -39,12 +39,9 @@ typedef struct sampler {
     bench *at; /* of the host thread that simulates the unit */
     pthread_mutex_t *locks; /* TILE_LOCKS, of tiles by their number modulo that */
     const run_result *result;
-    size_t tiles;        /* of the run */
-    unsigned threads;    /* of the core */
+    const sample_unit *unit;
     size_t next;         /* the tile to be taken next */
-    uint64_t begun;      /* hardware threads that are to go on with a tile of the warm-up */
-    size_t first, end;   /* tiles of the unit */
-    size_t left;         /* of these, not done yet */
+    size_t left;         /* tiles of the unit that are not done yet */
     size_t simulated;    /* tiles so far */
     double spent;        /* their cycles in `count` */
     uint64_t cycles;     /* of the unit's tiles that are done */
@@ -56,9 +53,11 @@ typedef struct sampler {
 typedef struct sampled_run {
     run_result *result;
     sample_pass pass;
-    sim_sample *sample; /* of the units but the ends: its unit 0 is unit 1 */
+    sim_sample *sample; /* of the units between the ends */
+    const sample_unit **between; /* these */
     size_t most, rounds; /* as many as may be needed; that have been measured */
-    size_t drawn[SAMPLERS]; /* the ends, then units of the round */
+    size_t ends;         /* ENDS, or less */
+    const sample_unit *drawn[SAMPLERS]; /* the ends, from ENDS on units of the round */
     sampler samplers[SAMPLERS];
     bench benches[SAMPLERS];
     unsigned jobs; /* host threads that are of use */
@@ -86,47 +85,34 @@ static base_status take_tile(sampler *s, unsigned thread, base_error *err)
     return record_tile(s, thread, err);
 }
 
-/* The next piece of a tile behind the unit, a new one if the thread is through with the last. */
-static base_status next_behind(sampler *s, unsigned thread, const lrb_event **events, size_t *count, base_error *err)
+static bool is_of_unit(const sampler *s, size_t tile) { return tile >= s->unit->first && tile < s->unit->end; }
+
+/* The thread's next tile, or of a tile before or behind the unit the next piece: once the unit is done the rest of it does not matter. */
+static base_status next_tile(void *user, unsigned thread, const lrb_event **events, size_t *count, base_error *err)
 {
+    sampler *s = user;
     const bench *at = s->at;
     const recording *tile = &at->own[thread];
     base_status status = BASE_OK;
-    if (at->tile[thread] < s->end || at->used[thread] == tile->count) {
-        if (s->next == s->tiles)
+    *events = NULL;
+    if (s->left == 0)
+        return BASE_OK;
+    if (at->used[thread] == tile->count) {
+        if (s->next == s->unit->limit)
             return BASE_OK;
         status = take_tile(s, thread, err);
     }
     const size_t left = tile->count - at->used[thread];
     *events = tile->events + at->used[thread];
-    *count = left < RUN_SAMPLE_PIECE ? left : RUN_SAMPLE_PIECE;
+    *count = is_of_unit(s, at->tile[thread]) || left < RUN_SAMPLE_PIECE ? left : RUN_SAMPLE_PIECE;
     at->used[thread] += *count;
-    return status;
-}
-
-static base_status next_tile(void *user, unsigned thread, const lrb_event **events, size_t *count, base_error *err)
-{
-    sampler *s = user;
-    const bench *at = s->at;
-    base_status status = BASE_OK;
-    *events = NULL;
-    if (s->left == 0)
-        return BASE_OK;
-    if (s->next >= s->end)
-        return next_behind(s, thread, events, count, err);
-    const bool begun = s->begun >> thread & 1;
-    if (!begun)
-        status = take_tile(s, thread, err);
-    *events = at->own[thread].events + (begun ? at->used[thread] : 0);
-    *count = at->own[thread].count - (begun ? at->used[thread] : 0);
-    s->begun &= ~(UINT64_C(1) << thread);
     return status;
 }
 
 static void tile_done(void *user, unsigned thread, const uint64_t regions[SIM_MAX_REGIONS + 1])
 {
     sampler *s = user;
-    if (s->at->tile[thread] < s->first || s->at->tile[thread] >= s->end)
+    if (!is_of_unit(s, s->at->tile[thread]))
         return;
     for (int i = 0; i <= SIM_MAX_REGIONS; i++)
         s->cycles += regions[i];
@@ -137,8 +123,6 @@ static base_status create_sampler(sampler *s, sampled_run *r, base_error *err)
 {
     s->result = r->result;
     s->locks = r->locks;
-    s->tiles = r->pass.tiles;
-    s->threads = r->result->machine->threads;
     return sim_core_create(r->result->machine, &s->core, err);
 }
 
@@ -166,50 +150,76 @@ static void destroy_bench(bench *b, unsigned threads)
     sim_warmer_destroy(&b->warmer);
 }
 
-/* Where the last ones of `parts` parts of a tile begin: at the phase that is under way there. */
-static size_t late_begin(const recording *tile, unsigned last, unsigned parts)
+/* Where the rest of a tile begins of which a part is done: at the phase that is under way there. */
+static size_t rest_of(const recording *tile, double done)
 {
-    size_t at = tile->count * (parts - last) / parts;
+    size_t at = (size_t)((double)tile->count * done);
     while (at > 0 && (tile->events[at].op & LRB_EVENT_ID) != LRB_OP_phase)
         at--;
     return at;
 }
 
-/* Begin in the midst of the tiles before the unit, each thread at another place of its own, as they are in the run. What of these tiles is not
- * simulated changes the caches alone. */
-static base_status warm_up(sampler *s, const sample_pass *pass, size_t unit)
+/* The hardware thread that is in a tile when the unit begins; of a tile that is done by then, one that is in a later one, or in none. */
+static unsigned thread_in(const sampler *s, size_t tile)
+{
+    const sample_begun *begun = s->unit->begun;
+    const unsigned threads = s->result->machine->threads;
+    unsigned thread = 0;
+    while (thread < threads && begun[thread].tile != tile)
+        thread++;
+    if (thread == threads)
+        for (thread = 0; begun[thread].tile < tile; thread++) {
+        }
+    return thread;
+}
+
+/* Trace a tile that was begun before the unit: up to where its thread is it warms the caches, if they have not seen it. */
+static base_status begin_tile(sampler *s, size_t tile)
 {
     bench *at = s->at;
-    base_status status = BASE_OK;
-    sim_warmer_fill(at->warmer, &pass->contents[unit]);
-    s->next = sample_pass_begin(pass, unit);
-    s->begun = 0;
-    for (unsigned thread = 0; status == BASE_OK && s->next < s->first; thread++) {
-        status = take_tile(s, thread, &s->error);
-        if (status != BASE_OK)
-            break;
-        at->used[thread] = late_begin(&at->own[thread], thread + 1, s->threads);
+    const unsigned thread = thread_in(s, tile);
+    const sample_begun *begun = &s->unit->begun[thread];
+    at->tile[thread] = tile;
+    base_status status = record_tile(s, thread, &s->error);
+    if (status != BASE_OK)
+        return status;
+    at->used[thread] = begun->tile == tile ? rest_of(&at->own[thread], begun->done) : at->own[thread].count;
+    if (tile >= s->unit->begin)
         sim_warmer_events(at->warmer, thread, at->own[thread].events, at->used[thread]);
-        s->begun |= UINT64_C(1) << thread;
-    }
+    return BASE_OK;
+}
+
+/* Bring the threads to where they are when the unit begins, and the caches too. */
+static base_status warm_up(sampler *s)
+{
+    bench *at = s->at;
+    const sample_unit *unit = s->unit;
+    const unsigned threads = s->result->machine->threads;
+    base_status status = BASE_OK;
+    sim_warmer_fill(at->warmer, &unit->contents);
+    for (unsigned t = 0; t < threads; t++)
+        at->own[t].count = at->used[t] = 0;
+    for (unsigned t = 0; status == BASE_OK && t < threads; t++)
+        if (unit->begun[t].tile < unit->begin)
+            status = begin_tile(s, unit->begun[t].tile);
+    for (size_t tile = unit->begin; status == BASE_OK && tile < unit->first; tile++)
+        status = begin_tile(s, tile);
     sim_core_fill(s->core, sim_warmer_contents(at->warmer));
     return status;
 }
 
-/* Simulate a unit with the tiles before it. */
+/* Simulate a unit. */
 static void measure_unit(void *user, size_t which, unsigned worker)
 {
     sampled_run *r = user;
-    which += r->rounds == 0 ? 0 : ENDS;
-    sampler *s = &r->samplers[which];
-    const size_t unit = r->drawn[which], end = sample_pass_first(&r->pass, unit + 1);
+    sampler *s = &r->samplers[r->rounds > 0 || which >= r->ends ? ENDS + which - (r->rounds > 0 ? 0 : r->ends) : which];
     const sim_core_feed feed = {.next = next_tile, .done = tile_done, .user = s};
     s->at = &r->benches[worker];
-    s->first = sample_pass_first(&r->pass, unit);
-    s->end = end < r->pass.tiles ? end : r->pass.tiles;
-    s->left = s->end - s->first;
+    s->unit = r->drawn[s - r->samplers];
+    s->next = s->unit->first;
+    s->left = s->unit->end - s->unit->first;
     s->cycles = 0;
-    s->status = warm_up(s, &r->pass, unit);
+    s->status = warm_up(s);
     if (s->status == BASE_OK)
         s->status = sim_core_run(s->core, &feed, &s->error);
 }
@@ -218,40 +228,53 @@ static void measure_unit(void *user, size_t which, unsigned worker)
 static base_status measure_round(sampled_run *r, base_error *err)
 {
     size_t units[SIM_SAMPLE_STRATA];
-    const size_t ends = r->rounds == 0 ? ENDS : 0, count = sim_sample_draw(r->sample, units);
+    const size_t ends = r->rounds == 0 ? r->ends : 0, count = sim_sample_draw(r->sample, units);
     for (size_t i = 0; i < count; i++)
-        r->drawn[ENDS + i] = units[i] + 1;
+        r->drawn[ENDS + i] = r->between[units[i]];
     base_parallel_for(r->jobs, ends + count, measure_unit, r);
-    for (size_t i = ENDS - ends; i < ENDS + count; i++) {
-        const sampler *s = &r->samplers[i];
+    for (size_t i = 0; i < ends + count; i++) {
+        const sampler *s = &r->samplers[i < ends ? i : ENDS + i - ends];
         if (s->status != BASE_OK)
             return base_fail(err, s->status, s->error.what, "%s", s->error.why);
-        if (i < ENDS)
+        if (i < ends)
             r->ends_cycles += (double)s->cycles;
         else
-            sim_sample_add(r->sample, units[i - ENDS], (double)s->cycles);
+            sim_sample_add(r->sample, units[i - ends], (double)s->cycles);
     }
     r->rounds++;
     return BASE_OK;
 }
 
-/* Rounds that cost less than all tiles, warm-ups and the tiles that are begun behind the units included. */
-static size_t rounds_worthwhile(const sampled_run *r)
+/* Rounds that cost less than all tiles, those that are begun before and behind the units included. */
+static size_t rounds_worthwhile(const run_result *result)
 {
-    const size_t unit = r->pass.unit_tiles + 2 * (size_t)r->result->machine->threads;
-    const size_t rounds = r->pass.tiles / (unit * SIM_SAMPLE_STRATA);
+    const size_t unit = sample_pass_unit_tiles(result) + 2 * (size_t)result->machine->threads;
+    const size_t rounds = kernel_job_tiles(result->job) / (unit * SIM_SAMPLE_STRATA);
     return rounds < RUN_SAMPLE_ROUNDS ? rounds : RUN_SAMPLE_ROUNDS;
 }
 
 /* The sample of the units between the ends, of which the pass knows the variates. */
 static base_status begin_sample(sampled_run *r, base_error *err)
 {
-    base_status status = sim_sample_create(r->pass.of + 1, r->pass.units - ENDS, SIM_SAMPLE_VARIATES, r->result->options.seed, &r->sample, err);
-    r->drawn[1] = r->pass.units - 1;
+    const sample_pass *p = &r->pass;
+    size_t count = 0;
+    r->between = calloc(p->unit_count, sizeof *r->between);
+    sim_variates *of = calloc(p->unit_count, sizeof *of);
+    base_status status = r->between && of ? BASE_OK : base_fail(err, BASE_ERR_NOMEM, "--error", "out of memory for %zu units", p->unit_count);
+    for (size_t i = 0; status == BASE_OK && i < p->unit_count; i++)
+        if (p->units[i].edge) {
+            r->drawn[r->ends++] = &p->units[i];
+        } else {
+            r->between[count] = &p->units[i];
+            of[count++] = p->units[i].of;
+        }
+    if (status == BASE_OK)
+        status = sim_sample_create(of, count, SIM_SAMPLE_VARIATES, r->result->options.seed, &r->sample, err);
     for (int i = 0; status == BASE_OK && i < SAMPLERS; i++)
         status = create_sampler(&r->samplers[i], r, err);
     for (unsigned i = 0; status == BASE_OK && i < r->jobs; i++)
         status = create_bench(&r->benches[i], r->result, err);
+    free(of);
     return status;
 }
 
@@ -332,30 +355,38 @@ static double cost_of_round(const sampled_run *r)
     double spent = 0, all = 0;
     for (int i = ENDS; i < SAMPLERS; i++)
         spent += r->samplers[i].spent;
-    for (size_t unit = 0; unit < r->pass.units; unit++)
-        all += r->pass.of[unit].x[0];
+    for (size_t i = 0; i < r->pass.unit_count; i++)
+        all += r->pass.units[i].of.x[0];
     return all > 0 ? spent / (double)r->rounds / all : 0;
 }
 
 /* How many rounds are to be measured in all: as many as make the interval narrow enough, to judge by those that there are, but not more
- * than twice these, which may have been bad luck. 0: it is narrow enough now. More than r->most: all tiles cost less. */
+ * than twice these, which may have been bad luck. 0: it is narrow enough now. More than r->most: all tiles cost less than half of what is needed. */
 static size_t rounds_needed(const sampled_run *r)
 {
     const sim_estimate e = sim_sample_estimate(r->sample);
     const double rounds = (double)r->rounds, times = half_width_of(r, &e) / r->result->options.error, needed = rounds * times * times;
     if (times <= 1)
         return 0;
-    if (r->rounds == r->most || (needed - rounds) * cost_of_round(r) > 1)
+    if (r->rounds == r->most || (needed / 2 - rounds) * cost_of_round(r) > 1)
         return r->most + 1;
     const size_t most = r->most < 2 * r->rounds ? r->most : 2 * r->rounds;
     return needed < (double)most ? (size_t)needed + 1 : most;
+}
+
+/* Rounds before the interval is looked at. Where few units have most of the cycles, a stratum of many small ones may hold a few that are unlike
+ * the others: three of it would not tell. */
+static size_t first_rounds(const sampled_run *r)
+{
+    const size_t share = sim_sample_largest(r->sample) / RUN_SAMPLE_SHARE;
+    return share > RUN_SAMPLE_FIRST ? share : RUN_SAMPLE_FIRST;
 }
 
 /* Rounds until the interval is narrow enough. It is looked at as few times as can be: to stop when it happens to be narrow
  * favours samples that scatter less than the units do. */
 static base_status measure(sampled_run *r, bool *enough, base_error *err)
 {
-    size_t rounds = RUN_SAMPLE_FIRST;
+    size_t rounds = first_rounds(r);
     base_status status = BASE_OK;
     while (status == BASE_OK && rounds <= r->most && !*enough) {
         while (status == BASE_OK && r->rounds < rounds)
@@ -377,21 +408,21 @@ static void destroy(sampled_run *r)
         pthread_mutex_destroy(&r->locks[i]);
     sim_sample_destroy(&r->sample);
     sample_pass_destroy(&r->pass);
+    free(r->between);
 }
 
 base_status run_sample(run_result *result, progress *bar, bool *enough, base_error *err)
 {
-    sampled_run r = {.result = result, .pass = sample_pass_plan(result)};
-    r.jobs = result->options.jobs < SAMPLERS ? result->options.jobs : SAMPLERS;
+    sampled_run r = {.result = result, .most = rounds_worthwhile(result)};
     *enough = false;
     if (result->machine->cores != 1)
         return base_fail(err, BASE_ERR_USAGE, "--error", "samples one core, not the %u of --set cores", result->machine->cores);
-    r.most = rounds_worthwhile(&r);
-    if (r.most < RUN_SAMPLE_FIRST || r.pass.units < ENDS + SIM_SAMPLE_STRATA)
+    if (r.most < RUN_SAMPLE_FIRST)
         return BASE_OK;
+    r.jobs = result->options.jobs < SAMPLERS ? result->options.jobs : SAMPLERS;
     for (int i = 0; i < TILE_LOCKS; i++)
         pthread_mutex_init(&r.locks[i], NULL);
-    base_status status = sample_pass_run(&r.pass, result, bar, err);
+    base_status status = sample_pass_run(result, bar, &r.pass, err);
     if (status == BASE_OK)
         status = begin_sample(&r, err);
     if (status == BASE_OK)

@@ -11,18 +11,39 @@ static size_t contents_bytes(const sim_machine *machine)
     return ((size_t)machine->l1.size_bytes / machine->l1.line_bytes + machine->l2.size_bytes / machine->l2.line_bytes) * 2 * sizeof(uint64_t);
 }
 
-sample_pass sample_pass_plan(const run_result *result)
+size_t sample_pass_unit_tiles(const run_result *result)
 {
-    const size_t tiles = kernel_job_tiles(result->job), fit = SAMPLE_PASS_BYTES / contents_bytes(result->machine);
-    const size_t most = fit < SAMPLE_PASS_UNITS ? fit + 1 : SAMPLE_PASS_UNITS;
-    const size_t cut = (tiles + SAMPLE_PASS_UNIT - 1) / SAMPLE_PASS_UNIT;
-    sample_pass p = {.tiles = tiles, .warmup = result->machine->threads};
-    p.unit_tiles = SAMPLE_PASS_UNIT * ((cut + most - 1) / most);
-    p.units = (tiles + p.unit_tiles - 1) / p.unit_tiles;
-    return p;
+    const size_t fit = SAMPLE_PASS_BYTES / contents_bytes(result->machine), most = fit < SAMPLE_PASS_UNITS ? fit + 1 : SAMPLE_PASS_UNITS;
+    const size_t units = (kernel_job_tiles(result->job) + SAMPLE_PASS_UNIT - 1) / SAMPLE_PASS_UNIT;
+    return SAMPLE_PASS_UNIT * ((units + most - 1) / most);
 }
 
-/* The pass at work. */
+/* Cut tiles [first, limit), a pass of the kernel, into units. */
+static void cut(sample_pass *p, const run_result *result, size_t first, size_t limit)
+{
+    const size_t tiles = sample_pass_unit_tiles(result), threads = result->machine->threads;
+    for (size_t at = first; at < limit; at += tiles) {
+        const size_t end = limit - at > tiles ? at + tiles : limit, begin = at - first > threads ? at - threads : first;
+        p->units[p->unit_count++] = (sample_unit){.first = at, .end = end, .begin = begin, .limit = limit, .edge = at == first || end == limit};
+    }
+}
+
+static base_status lay_out(sample_pass *p, const run_result *result, base_error *err)
+{
+    const size_t tiles = kernel_job_tiles(result->job), most = tiles / sample_pass_unit_tiles(result) + 2, threads = result->machine->threads;
+    *p = (sample_pass){.tiles = tiles};
+    p->units = calloc(most, sizeof *p->units);
+    p->begun = calloc(most * threads, sizeof *p->begun);
+    if (!p->units || !p->begun)
+        return base_fail(err, BASE_ERR_NOMEM, "--error", "out of memory for %zu units", most);
+    cut(p, result, 0, kernel_job_first_pass(result->job));
+    cut(p, result, kernel_job_first_pass(result->job), tiles);
+    for (size_t i = 0; i < p->unit_count; i++)
+        p->units[i].begun = p->begun + i * threads;
+    return BASE_OK;
+}
+
+/* The trace at work. */
 typedef struct tracer {
     sample_pass *pass;
     run_result *result;
@@ -50,7 +71,7 @@ static double cycles_since(const tracer *t)
     return (double)sim_count_half_cycles(t->result->machine, ops) / 2;
 }
 
-static void trace_tile(tracer *t, size_t tile)
+static void trace_tile(tracer *t, size_t tile, sample_unit *unit)
 {
     run_result *result = t->result;
     kernel_counts counts = {{0}};
@@ -59,27 +80,22 @@ static void trace_tile(tracer *t, size_t tile)
     memcpy(t->ops, t->ctx->ops, sizeof t->ops);
     result->options.kernel->tile[LRB_TOUCH](t->ctx, result->job, (uint32_t)tile, &counts);
     lrb_ctx_end(t->ctx);
-    const double cycles = cycles_since(t);
-    result->region_cycles[tile * (SIM_MAX_REGIONS + 1) + SIM_MAX_REGIONS] = cycles;
-    const double x[SIM_SAMPLE_VARIATES] = {cycles, 1, (double)t->came.l1, (double)t->came.l2};
+    const double cycles = cycles_since(t), second = tile >= kernel_job_first_pass(result->job);
+    const double x[SIM_SAMPLE_VARIATES] = {cycles, 1, second, (double)t->came.l1, (double)t->came.l2};
     for (int k = 0; k < SIM_SAMPLE_VARIATES; k++)
-        t->pass->of[tile / t->pass->unit_tiles].x[k] += x[k];
+        unit->of.x[k] += x[k];
+    result->region_cycles[tile * (SIM_MAX_REGIONS + 1) + SIM_MAX_REGIONS] = cycles;
     for (int i = 0; i < KERNEL_COUNTER_COUNT; i++)
         result->counts.n[i] += counts.n[i];
     if (result->tile_counts)
         result->tile_counts[tile] = counts;
 }
 
-/* The caches are those of the units whose warm-up begins with the tile. */
-static base_status keep_contents(tracer *t, size_t tile, size_t *next, base_error *err)
+static base_status keep_contents(const tracer *t, sample_unit *unit, base_error *err)
 {
-    sample_pass *p = t->pass;
-    base_status status = BASE_OK;
-    for (; status == BASE_OK && *next < p->units && sample_pass_begin(p, *next) == tile; ++*next) {
-        status = sim_contents_create(t->result->machine, &p->contents[*next], err);
-        if (status == BASE_OK)
-            sim_contents_assign(&p->contents[*next], sim_warmer_contents(t->warmer));
-    }
+    base_status status = sim_contents_create(t->result->machine, &unit->contents, err);
+    if (status == BASE_OK)
+        sim_contents_assign(&unit->contents, sim_warmer_contents(t->warmer));
     return status;
 }
 
@@ -87,23 +103,67 @@ static base_status trace_all(tracer *t, progress *bar, base_error *err)
 {
     sample_pass *p = t->pass;
     base_status status = BASE_OK;
-    size_t next = 0; /* unit whose caches are kept next */
+    sample_unit *unit = p->units, *next = p->units; /* of the tile; whose caches are kept next */
     for (size_t tile = 0; status == BASE_OK && tile < p->tiles; tile++) {
-        status = keep_contents(t, tile, &next, err);
-        trace_tile(t, tile);
+        for (; status == BASE_OK && next < p->units + p->unit_count && next->begin == tile; next++)
+            status = keep_contents(t, next, err);
+        unit += tile == unit->end;
+        trace_tile(t, tile, unit);
         progress_step(bar, 0);
     }
     return status;
 }
 
-base_status sample_pass_run(sample_pass *pass, run_result *result, progress *bar, base_error *err)
+/* Where the hardware threads are when a unit begins: in the tiles just before it, evenly out of step. But one that has been in a tile for
+ * longer is still there: `in`, until `until`, if each tile takes as long as its cycles in `count` and the thread that is through first takes the next. */
+static void find_begun(sample_unit *unit, const run_result *result, const double *until, const sample_begun *in, double now)
+{
+    const unsigned threads = result->machine->threads;
+    unsigned others = 0, at = 0;
+    for (unsigned t = 0; t < threads; t++) {
+        unit->begun[t] = (sample_begun){.tile = SIZE_MAX};
+        if (in[t].tile < unit->begin && until[t] > now)
+            unit->begun[t] = (sample_begun){in[t].tile, 1 - (until[t] - now) / sample_pass_tile_cycles(result, in[t].tile)};
+        others += unit->begun[t].tile == SIZE_MAX;
+    }
+    for (unsigned t = 0; unit->first - unit->begin >= others && t < threads; t++)
+        if (unit->begun[t].tile == SIZE_MAX) {
+            unit->begun[t] = (sample_begun){unit->first - others + at, 1 - (double)(at + 1) / others};
+            at++;
+        }
+}
+
+static base_status schedule(sample_pass *p, const run_result *result, base_error *err)
+{
+    const unsigned threads = result->machine->threads;
+    double *until = calloc(threads, sizeof *until);
+    sample_begun *in = calloc(threads, sizeof *in);
+    for (sample_unit *unit = p->units; until && in && unit < p->units + p->unit_count; unit++) {
+        const bool begins = unit == p->units || unit->limit != unit[-1].limit; /* a pass of the kernel */
+        for (unsigned t = 0; begins && t < threads; t++)
+            until[t] = 0, in[t].tile = SIZE_MAX;
+        for (size_t tile = unit->first; tile < unit->end; tile++) {
+            unsigned taker = 0;
+            for (unsigned t = 1; t < threads; t++)
+                taker = until[t] < until[taker] ? t : taker;
+            if (tile == unit->first)
+                find_begun(unit, result, until, in, until[taker]);
+            in[taker].tile = tile;
+            until[taker] += sample_pass_tile_cycles(result, tile);
+        }
+    }
+    const bool failed = !until || !in;
+    free(until);
+    free(in);
+    return failed ? base_fail(err, BASE_ERR_NOMEM, "--error", "out of memory for %u threads", threads) : BASE_OK;
+}
+
+base_status sample_pass_run(run_result *result, progress *bar, sample_pass *pass, base_error *err)
 {
     tracer t = {.pass = pass, .result = result};
-    pass->of = calloc(pass->units, sizeof *pass->of);
-    pass->contents = calloc(pass->units, sizeof *pass->contents);
-    if (!pass->of || !pass->contents)
-        return base_fail(err, BASE_ERR_NOMEM, "--error", "out of memory for %zu units", pass->units);
-    base_status status = sim_warmer_create(result->machine, &t.warmer, err);
+    base_status status = lay_out(pass, result, err);
+    if (status == BASE_OK)
+        status = sim_warmer_create(result->machine, &t.warmer, err);
     if (status == BASE_OK)
         status = lrb_ctx_create(warm, &t, &t.ctx, err);
     if (status == BASE_OK) {
@@ -115,6 +175,7 @@ base_status sample_pass_run(sample_pass *pass, run_result *result, progress *bar
         memcpy(result->ops, t.ctx->ops, sizeof result->ops);
         result->memory_operands = t.ctx->memory_operands;
         result->idle_lanes = t.ctx->idle_lanes;
+        status = schedule(pass, result, err);
     }
     lrb_ctx_destroy(&t.ctx);
     sim_warmer_destroy(&t.warmer);
@@ -123,8 +184,8 @@ base_status sample_pass_run(sample_pass *pass, run_result *result, progress *bar
 
 void sample_pass_destroy(sample_pass *pass)
 {
-    for (size_t i = 0; pass->contents && i < pass->units; i++)
-        sim_contents_destroy(&pass->contents[i]);
-    free(pass->contents);
-    free(pass->of);
+    for (size_t i = 0; i < pass->unit_count; i++)
+        sim_contents_destroy(&pass->units[i].contents);
+    free(pass->units);
+    free(pass->begun);
 }

@@ -136,6 +136,14 @@ size_t sim_sample_draw(sim_sample *s, size_t units[SIM_SAMPLE_STRATA])
     return count;
 }
 
+size_t sim_sample_largest(const sim_sample *s)
+{
+    size_t largest = 0;
+    for (const stratum *h = s->strata; h < s->strata + SIM_SAMPLE_STRATA; h++)
+        largest = h->count > largest ? h->count : largest;
+    return largest;
+}
+
 void sim_sample_add(sim_sample *s, size_t unit, double value)
 {
     stratum *h = &s->strata[s->stratum_of[unit]];
@@ -216,7 +224,7 @@ static fit least_squares(const sim_sample *s)
     size_t units = 0;
     for (const stratum *h = s->strata; h < s->strata + SIM_SAMPLE_STRATA; h++)
         units += h->added;
-    for (unsigned k = 0; k < s->variates && (k == 0 || units >= (size_t)UNITS_EACH * (k + 1)); k++)
+    for (unsigned k = 0; k < s->variates && (k == 0 || units >= (size_t)UNITS_EACH * (f.count + 1)); k++)
         take_in(s, &f, k);
     return f;
 }
@@ -264,17 +272,18 @@ static double variance_of(const sim_sample *s, const stratum *h, const fit *f)
 /* Student's interval for the variance that the strata have together. */
 static double half_width(const sim_sample *s, const fit *f)
 {
-    double variance = 0, weighted = 0; /* the latter: sum of squared shares over their degrees of freedom */
+    double variance = 0, weighted = 0, units = 0; /* weighted: sum of squared shares over their degrees of freedom */
     for (size_t k = 0; k < SIM_SAMPLE_STRATA; k++) {
         const stratum *h = &s->strata[k];
         const double share = variance_of(s, h, f);
         variance += share;
+        units += (double)h->added;
         if (share > 0)
             weighted += share * share / (double)h->added;
     }
     if (variance == 0 || isinf(variance))
         return variance;
-    const double freedom = variance * variance / weighted - f->count;
+    const double freedom = variance * variance / weighted * (1 - (double)f->count / units);
     return sim_student_95(freedom > 1 ? (size_t)(freedom + 1e-9) : 1) * sqrt(variance);
 }
 

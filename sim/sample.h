@@ -13,8 +13,8 @@
  * - Its variance: the sum over strata of N_h^2 / n_h times the variance of the residuals within the stratum (6.47 there, without
  *   the correction for a finite population: a unit that is simulated by itself takes a little more or less than it does in the run, so that
  *   all of them together would not give the total either), residuals taken as they are, not from the stratum's mean, and
- *   made larger by their units' leverage. The interval is Student's, with Satterthwaite's degrees of freedom less those of the b:
- *   few where one stratum has most of the variance.
+ *   made larger by their units' leverage. The interval is Student's, with Satterthwaite's degrees of freedom, few where one
+ *   stratum has most of the variance, of which the b take as large a part as they are of the units.
  *
  * The order of draws is a function of the seed and the sizes alone.
  */
@@ -31,7 +31,7 @@ extern "C" {
 #endif
 
 #define SIM_SAMPLE_STRATA 4
-#define SIM_SAMPLE_VARIATES 4 /* at most */
+#define SIM_SAMPLE_VARIATES 5 /* at most */
 
 /* What is known of a unit; the first is its size. */
 typedef struct sim_variates {
@@ -70,6 +70,9 @@ void sim_sample_destroy(sim_sample **sample);
  * @return       how many; 0: all have been drawn
  */
 size_t sim_sample_draw(sim_sample *sample, size_t units[SIM_SAMPLE_STRATA]);
+
+/** Units of the largest stratum. */
+size_t sim_sample_largest(const sim_sample *sample);
 
 /** Tell the value y of a unit that was drawn: once each, those of a stratum in the order of the draws. */
 void sim_sample_add(sim_sample *sample, size_t unit, double value);

@@ -1,8 +1,8 @@
 /* Sampled simulation against the truth: how often the stated interval holds the cycles of the full core model.
  *
- *   bench_sample [--size N] [--trials N] [--error E,E,...]
+ *   bench_sample [--size N] [--trials N] [--error E,E,...] [--kernel NAME] [--scene SCENE]
  *
- * For both kernels and every built-in scene the image is simulated in full once, and then sampled with that many seeds. Rows of
+ * For the kernel, or both of primary rays on the BVH, and the scene, or each of three built-in ones, the image is simulated in full once, and then sampled with that many seeds. Rows of
  * CSV on stdout: trials whose interval holds the truth, mean and root mean square of their relative errors, mean half-width, tiles and
  * seconds of the host's processor, and how many times faster than the full run that is; lines of '#' name the compiler and the CPU.
  */
@@ -87,21 +87,38 @@ static base_status bench_scene(const scene *s, const sim_machine *machine, run_o
     return status;
 }
 
-static base_status bench_all(const sim_machine *machine, run_options *options, const char *errors, int count, base_error *err)
+/* What is sampled. */
+typedef struct plan {
+    const char *kernel, *scene; /* or NULL: all */
+    const char *errors;
+    int trials;
+} plan;
+
+static base_status bench_run(const plan *p, const char *kernel, const char *spec, const sim_machine *machine, run_options *options, base_error *err)
+{
+    scene *s = NULL;
+    options->kernel = kernel_find(kernel);
+    if (!options->kernel)
+        return base_fail(err, BASE_ERR_USAGE, "--kernel", "no kernel '%s'", kernel);
+    options->params = options->kernel->defaults;
+    base_status status = scene_open(spec, &s, err);
+    if (status == BASE_OK)
+        status = bench_scene(s, machine, options, p->errors, p->trials, err);
+    scene_destroy(&s);
+    return status;
+}
+
+static base_status bench_all(const plan *p, const sim_machine *machine, run_options *options, base_error *err)
 {
     static const char *const kernels[] = {"packet16-primary", "mft-primary"};
-    size_t scenes;
-    const char *const *spec = scene_builtin_usual(&scenes);
+    const char *const *kernel = p->kernel ? &p->kernel : kernels, *const *spec = &p->scene;
+    const size_t kernel_count = p->kernel ? 1 : 2;
+    size_t scenes = 1;
+    if (!p->scene)
+        spec = scene_builtin_usual(&scenes);
     base_status status = BASE_OK;
-    for (size_t i = 0; status == BASE_OK && i < 2 * scenes; i++) {
-        scene *s = NULL;
-        options->kernel = kernel_find(kernels[i % 2]);
-        options->params = options->kernel->defaults;
-        status = scene_open(spec[i / 2], &s, err);
-        if (status == BASE_OK)
-            status = bench_scene(s, machine, options, errors, count, err);
-        scene_destroy(&s);
-    }
+    for (size_t i = 0; status == BASE_OK && i < kernel_count * scenes; i++)
+        status = bench_run(p, kernel[i % kernel_count], spec[i / kernel_count], machine, options, err);
     return status;
 }
 
@@ -110,15 +127,18 @@ int main(int argc, char **argv)
     base_error err = {0};
     sim_machine *machine = NULL;
     run_options options = {.width = 512, .height = 512, .model = RUN_CORE, .jobs = 1};
-    const char *errors = "0.03";
-    int count = 40;
+    plan p = {.errors = "0.03", .trials = 40};
     for (int i = 1; i + 1 < argc; i += 2) {
         if (strcmp(argv[i], "--size") == 0)
             options.width = options.height = (unsigned)strtoul(argv[i + 1], NULL, 10);
         else if (strcmp(argv[i], "--trials") == 0)
-            count = (int)strtol(argv[i + 1], NULL, 10);
+            p.trials = (int)strtol(argv[i + 1], NULL, 10);
         else if (strcmp(argv[i], "--error") == 0)
-            errors = argv[i + 1];
+            p.errors = argv[i + 1];
+        else if (strcmp(argv[i], "--kernel") == 0)
+            p.kernel = argv[i + 1];
+        else if (strcmp(argv[i], "--scene") == 0)
+            p.scene = argv[i + 1];
         else
             return fprintf(stderr, "bench_sample: error: %s: no such option\n", argv[i]), 2;
     }
@@ -126,7 +146,7 @@ int main(int argc, char **argv)
     printf("kernel,scene,size,error,trials,hold,bias,rms,half_width,tiles,full_s,sampled_s,times_faster\n");
     base_status status = sim_machine_load("larrabee", &machine, &err);
     if (status == BASE_OK)
-        status = bench_all(machine, &options, errors, count, &err);
+        status = bench_all(&p, machine, &options, &err);
     sim_machine_destroy(&machine);
     if (status != BASE_OK)
         fprintf(stderr, "bench_sample: error: %s: %s\n", err.what, err.why);

@@ -213,16 +213,17 @@ static void estimate__variate_says_nothing_new__as_without_it(void **state)
 static void estimate__values_of_four_variates__exact_once_enough_are_known(void **state)
 {
     (void)state;
-    static const double worth[SIM_SAMPLE_VARIATES] = {0.9, 250, 15, -3};
+    enum { FOUR = 4 };
+    static const double worth[FOUR] = {0.9, 250, 15, -3};
     population p = make_population_of_two(8, 0);
     base_random random = {.state = 99};
-    p.variates = SIM_SAMPLE_VARIATES;
+    p.variates = FOUR;
     p.total = 0;
     for (int i = 0; i < UNITS; i++) {
         p.of[i].x[2] = p.of[i].x[0] / 20 + 100 * base_random_unit(&random);
         p.of[i].x[3] = p.of[i].x[1] + p.of[i].x[2] + base_random_unit(&random);
         p.value[i] = 0;
-        for (int k = 0; k < SIM_SAMPLE_VARIATES; k++)
+        for (int k = 0; k < FOUR; k++)
             p.value[i] += worth[k] * p.of[i].x[k];
         p.total += p.value[i];
     }
@@ -232,7 +233,7 @@ static void estimate__values_of_four_variates__exact_once_enough_are_known(void 
     draw_round(s, &p);
     sim_estimate e = sim_sample_estimate(s);
     assert_true(fabs(e.total / p.total - 1) < 1e-9 && e.half_width_95 < 1e-6 * p.total);
-    for (int k = 0; k < SIM_SAMPLE_VARIATES; k++)
+    for (int k = 0; k < FOUR; k++)
         assert_true(fabs(e.worth[k] / worth[k] - 1) < 1e-6);
     sim_sample_destroy(&s);
 }
