@@ -329,7 +329,7 @@ static void spread_cycles(run_result *result, size_t tiles)
 
 /* What a unit's cycles by themselves may be off, as a part of them, whatever the unit: its threads meet in other places than in the run. It does not
    average out, so the interval has it beside what the sample says; docs/machine-model.md has how large it was found to be. */
-static const double bias = 0.002;
+static const double bias = 0.005;
 
 /* The relative half-width of the interval of all cycles. */
 static double half_width_of(const sampled_run *r, const sim_estimate *e)

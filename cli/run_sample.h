@@ -8,7 +8,7 @@
 /* How units are taken; docs/machine-model.md says what for. */
 enum {
     RUN_SAMPLE_PIECE = 1024, /* events of a tile behind a unit that a thread is given at once */
-    RUN_SAMPLE_FIRST = 3,    /* rounds before the interval is looked at, */
+    RUN_SAMPLE_FIRST = 4,    /* rounds before the interval is looked at, */
     RUN_SAMPLE_SHARE = 64,   /* or more: a unit of so many of the largest stratum */
     RUN_SAMPLE_ROUNDS = 64   /* at most */
 };

@@ -219,7 +219,7 @@ static void take_in(const sim_sample *s, fit *f, unsigned variate)
 
 static fit least_squares(const sim_sample *s)
 {
-    enum { UNITS_EACH = 3 }; /* that are known for each variate that is used */
+    enum { UNITS_EACH = 4 }; /* that are known for each variate that is used */
     fit f = {.count = 0};
     size_t units = 0;
     for (const stratum *h = s->strata; h < s->strata + SIM_SAMPLE_STRATA; h++)
