@@ -184,6 +184,7 @@ static base_status begin_tile(sampler *s, size_t tile)
     if (status != BASE_OK)
         return status;
     at->used[thread] = begun->tile == tile ? rest_of(&at->own[thread], begun->done) : at->own[thread].count;
+    s->simulated += begun->tile == tile;
     if (tile >= s->unit->begin)
         sim_warmer_events(at->warmer, thread, at->own[thread].events, at->used[thread]);
     return BASE_OK;
@@ -208,11 +209,18 @@ static base_status warm_up(sampler *s)
     return status;
 }
 
+/* The sampler of the i-th unit of a round: with the first round the ends come first. */
+static sampler *sampler_of(sampled_run *r, size_t i)
+{
+    const size_t ends = r->rounds == 0 ? r->ends : 0;
+    return &r->samplers[i < ends ? i : ENDS + i - ends];
+}
+
 /* Simulate a unit. */
 static void measure_unit(void *user, size_t which, unsigned worker)
 {
     sampled_run *r = user;
-    sampler *s = &r->samplers[r->rounds > 0 || which >= r->ends ? ENDS + which - (r->rounds > 0 ? 0 : r->ends) : which];
+    sampler *s = sampler_of(r, which);
     const sim_core_feed feed = {.next = next_tile, .done = tile_done, .user = s};
     s->at = &r->benches[worker];
     s->unit = r->drawn[s - r->samplers];
@@ -233,7 +241,7 @@ static base_status measure_round(sampled_run *r, base_error *err)
         r->drawn[ENDS + i] = r->between[units[i]];
     base_parallel_for(r->jobs, ends + count, measure_unit, r);
     for (size_t i = 0; i < ends + count; i++) {
-        const sampler *s = &r->samplers[i < ends ? i : ENDS + i - ends];
+        const sampler *s = sampler_of(r, i);
         if (s->status != BASE_OK)
             return base_fail(err, s->status, s->error.what, "%s", s->error.why);
         if (i < ends)
